@@ -25,10 +25,9 @@ from jax import Array
 from jax.flatten_util import ravel_pytree
 
 import acausal as ac
+from acausal._jax import Descent, DescentMethod, levenberg_marquardt
 from acausal.training import strategy
-from acausal.training.optimizers.descent import Descent, DescentMethod
 from acausal.training.optimizers.lbfgs import lbfgs
-from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from benchmarks.strategies import NOISE, OFF, RECORD, UNKNOWN
 from examples.qvm.model import truth, with_networks
 from examples.qvm.record import INPUT, OUTPUTS, ride
@@ -75,7 +74,7 @@ def by_optimistix(solver: Any, function: Callable[..., Any]) -> DescentMethod:
         point, _ = ravel_pytree(params)
         no = jnp.zeros((), bool)
         value = jnp.asarray(jnp.inf, point.dtype)
-        return OptimistixState(point, value, jnp.zeros_like(point), no, begin(point)[0])
+        return OptimistixState(point, value, no, begin(point)[0])
 
     def update(updates: Any, state: Any, params: Any = None, **extra: Any) -> Any:
         point, unravel = ravel_pytree(params)
@@ -89,9 +88,7 @@ def by_optimistix(solver: Any, function: Callable[..., Any]) -> DescentMethod:
         converged, _ = solver.terminate(fn, best, None, {}, whole, frozenset())
         value = jnp.where((best == point).all(), extra["value"], state.value)
         arrays = eqx.filter(whole, eqx.is_array)
-        return unravel(whole.y_eval - point), OptimistixState(
-            best, value, gradient, converged, arrays
-        )
+        return unravel(whole.y_eval - point), OptimistixState(best, value, converged, arrays)
 
     return DescentMethod(init, update)
 

@@ -14,7 +14,19 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from benchmarks import chain, export, fleet, gears, grid, ladder, measure, optimizers, peers, sweep
+from benchmarks import (
+    chain,
+    export,
+    fleet,
+    gears,
+    grid,
+    ladder,
+    measure,
+    observer,
+    optimizers,
+    peers,
+    sweep,
+)
 from benchmarks.command import growth_exponent
 from benchmarks.measure import Stopwatch
 from benchmarks.qvm import by_hand, c, framework, task
@@ -123,6 +135,14 @@ def test_exported_steps_are_those_written_by_hand(ride, tmp_path):
         pytest.skip(str(e))
     exported = export.Exported(ac.compile(with_networks()), asked.params, tmp_path)
     assert exported.forward(asked)() == pytest.approx(expected, rel=1e-11)
+
+
+def test_an_observer_steps_in_python_and_in_c(tmp_path):
+    seen = observer.observer(ac.compile(with_networks()), "ekf")
+    with suppress(ImportError):
+        observer.in_c(seen, tmp_path)()
+    observer.in_python(seen)
+    assert seen.t == pytest.approx(1e-3 * observer.CALLS)
 
 
 def test_a_sweep_finds_what_single_simulations_find():

@@ -1,5 +1,12 @@
 from .at_import import configure_with_jax as configure_with_jax
 from .compilation_cache import use_compilation_cache as use_compilation_cache
+from .damped_steps import (
+    Damped as Damped,
+    after_trial as after_trial,
+    before_trials as before_trials,
+    levenberg_marquardt as levenberg_marquardt,
+)
+from .descent import Descent as Descent, DescentMethod as DescentMethod
 from .differentiation import two_modes as two_modes
 from .dtypes import (
     cast as cast,
@@ -29,6 +36,11 @@ from .side_by_side import (
     cond_any as cond_any,
     one_by_one as one_by_one,
     while_any as while_any,
+)
+from .small_factors import (
+    cholesky as cholesky,
+    solve_lower as solve_lower,
+    solve_upper as solve_upper,
 )
 from .tracing import (
     INLINED as INLINED,

@@ -1,4 +1,4 @@
-"""`estimate`: states and drifting parameters of a model from measured data, by Kalman filters and smoothers."""
+"""`estimate`: states and drifting parameters of a model from measured data, by filters or a moving horizon."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float, PRNGKeyArray
 from scipy.optimize import minimize
 
-from acausal._jax import as_key, need_double_precision, traced
+from acausal._jax import as_key, is_number, need_double_precision, traced
 from acausal.analysis.estimation import Estimation
 from acausal.analysis.filtering import (
     Belief,
@@ -22,10 +22,10 @@ from acausal.analysis.filtering import (
     Filtered,
     Linearized,
     Measured,
-    by_derivatives,
     by_points,
     run,
 )
+from acausal.analysis.moving_horizon import EKF, SOFT, Bounds, MovingHorizon
 from acausal.analysis.tracking import (
     AlongRecord,
     check_model,
@@ -49,7 +49,7 @@ from acausal.simulation import (
 if TYPE_CHECKING:
     from acausal.system import System
 
-METHODS = ("ekf", "ukf", "enkf")
+METHODS = ("ekf", "ukf", "enkf", "mhe")
 
 LEVELS = np.logspace(-4, 2, 9)
 """Process noise that is tried where none is given: random walks over the record, in sizes of the states."""
@@ -67,7 +67,7 @@ FAR = 7.0
 def estimate(
     system: System,
     record: Record,
-    method: Literal["ekf", "ukf", "enkf"] = "ekf",
+    method: Literal["ekf", "ukf", "enkf", "mhe"] = "ekf",
     *,
     sensors: str | Sequence[str] | Mapping[str, float] | None = None,
     states: Mapping[str, float] | None = None,
@@ -78,6 +78,8 @@ def estimate(
     dt: float | None = None,
     solver: Any = "auto",
     smooth: bool = False,
+    window: int = 20,
+    bounds: Mapping[str, tuple[float | None, float | None]] | None = None,
     members: int = 200,
     seed: int = 0,
 ) -> Estimation:
@@ -90,8 +92,9 @@ def estimate(
     Arguments:
         system: a compiled model without events.
         record: with the model's inputs, and measurements of any of its variables.
-        method: ``"ekf"``, the extended Kalman filter, whose derivatives are exact; ``"ukf"``, the unscented one; or
-            ``"enkf"``, an ensemble.
+        method: ``"ekf"``, the extended Kalman filter, whose derivatives are exact; ``"ukf"``, the unscented one;
+            ``"enkf"``, an ensemble; or ``"mhe"``, a moving horizon: the most likely way through the last rows, found by
+            Gauss-Newton steps at every row (no reverse mode).
         sensors: what of the record is measured, by default all that the model computes; or the standard deviations of
             their noise, by name. Others are estimated from the record.
         states: standard deviations of the states at the start, by name; by default the noise of the sensor where a
@@ -106,6 +109,9 @@ def estimate(
         dt: the longest step of the integration; by default as short as the model's modes ask for.
         solver: of the steps; ``"auto"`` is classical Runge-Kutta, or implicit for stiff models.
         smooth: whether estimates use later measurements, too, as `Estimation.smooth`.
+        window: samples of the moving horizon.
+        bounds: of the moving horizon, by state or estimated parameter: the lowest and the highest value, ``None`` for
+            none. They may be exceeded by about a thousandth of the standard deviation at the start.
         members: of the ensemble. seed: of its random numbers.
 
     Returns:
@@ -116,6 +122,7 @@ def estimate(
         ModelError: for a model that is not compiled, or that has events or no states.
     """
     how = filter_for(system, method, "estimate")
+    window = need_whole(window, "window", DataError, 2)
     members = need_whole(members, "members", DataError, 2)
     data = Data.of(record).for_system(system)
     if len(data) < 2:
@@ -132,7 +139,12 @@ def estimate(
     key = as_key(seed)
     walk = jnp.concatenate([size / jnp.sqrt(path.t[-1] - path.t[0]), jnp.zeros(len(drift))])
 
-    def filtered(q: Array, r: Array, how: Filter = EKF) -> Filtered:
+    if isinstance(how, MovingHorizon):
+        how = MovingHorizon(window, _bounds(bounds, names, jnp.sqrt(jnp.diag(start.covariance))))
+    elif bounds is not None:
+        raise DataError(f"bounds: method='{method}' keeps none; take method='mhe'.")
+
+    def filtered(q: Array, r: Array, how: Filter | MovingHorizon = EKF) -> Filtered:
         begin = _with_members(start, members, key) if isinstance(how, EnsembleFilter) else start
         return _filtered(how, path, begin, measured._replace(sigma=r), q, key)
 
@@ -154,10 +166,7 @@ def estimate(
     return result.smooth() if smooth else result
 
 
-EKF = Linearized(by_derivatives)
-
-
-def filter_for(system: System, method: str, what: str) -> Filter:
+def filter_for(system: System, method: str, what: str) -> Filter | MovingHorizon:
     """The filter of a name, for a model that it can follow.
 
     Raises:
@@ -169,13 +178,11 @@ def filter_for(system: System, method: str, what: str) -> Filter:
     check_model(system, what)
     if not isinstance(method, str):
         raise DataError(f"method={shown(method)}; give the name of a method, such as 'ekf'.")
-    if method == "mhe":
-        raise DataError(
-            "method='mhe': a moving horizon is not there yet; take method='ekf' with smooth=True, or 'ukf'."
-        )
     if method not in METHODS:
         raise DataError(f"No method {shown(method)}: {nearest(method, METHODS)}")
-    return {"ekf": EKF, "ukf": Linearized(by_points), "enkf": EnsembleFilter()}[method]
+    return {
+        "ekf": EKF, "ukf": Linearized(by_points), "enkf": EnsembleFilter(), "mhe": MovingHorizon(2),
+    }[method]  # fmt: skip
 
 
 def _sensors(system: System, data: Data, given: Any) -> dict[str, Any]:
@@ -210,6 +217,35 @@ def _sensors(system: System, data: Data, given: Any) -> dict[str, Any]:
             f"ac.Data(time, {{'{system.states[0]}': ...}})."
         )
     return {n: _noise(data.signals[n]) if v is None else v for n, v in levels.items()}
+
+
+def _bounds(
+    given: Mapping[str, tuple[float | None, float | None]] | None,
+    names: tuple[str, ...],
+    deviation: Float[Array, " m"],
+) -> Bounds | None:
+    """The bounds of what is estimated.
+
+    Raises:
+        DataError: for an unknown name, or what is no interval.
+    """
+    if not given:
+        return None
+    low, high = np.full(len(names), -np.inf), np.full(len(names), np.inf)
+    for name, interval in given.items():
+        if name not in names:
+            raise DataError(f"bounds: '{name}' is not estimated: {nearest(name, names)}")
+        pair = interval if isinstance(interval, Sequence) else ()
+        ends = [e for e in pair if e is not None]
+        if len(pair) != 2 or not all(map(is_number, ends)) or ends != sorted(ends):
+            raise DataError(
+                f"bounds: '{name}' has {shown(interval)}; give two numbers that rise, None for none."
+            )
+        i, (least, most) = names.index(name), pair
+        low[i], high[i] = -np.inf if least is None else least, np.inf if most is None else most
+    return Bounds(
+        jnp.asarray(low), jnp.asarray(high), SOFT * jnp.where(deviation > 0, deviation, 1)
+    )
 
 
 def _noise(signal: Float[np.ndarray, " n"]) -> float:
@@ -313,14 +349,17 @@ def _with_members(start: Belief, count: int, key: PRNGKeyArray) -> Belief:
 
 @eqx.filter_jit
 def _filtered(
-    how: Filter,
+    how: Filter | MovingHorizon,
     path: AlongRecord,
     start: Belief,
     measured: Measured,
     q: Float[Array, " m"],
     key: PRNGKeyArray,
 ) -> Filtered:
-    return run(how, path, start, measured, q * jnp.sqrt(path.steps.h)[:, None], key)
+    sigma = q * jnp.sqrt(path.steps.h)[:, None]
+    if isinstance(how, MovingHorizon):
+        return how.run(path, start, measured, sigma)
+    return run(how, path, start, measured, sigma, key)
 
 
 def _likelihood(filtered: Filtered) -> Float[Array, ""]:

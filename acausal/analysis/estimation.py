@@ -159,12 +159,17 @@ def _values(
 ) -> tuple[Values, dict[str, Float[Array, " n"]]]:
     """The values of the model along a path, and the parameters that drift."""
     model, n = path.model, len(path.model.system.states)
-    packed = model.packed
+    packed, mean = model.packed, _closed(path, mean)
     if model.drifting:
         rows = jax.vmap(lambda z: model.packed_at(z).values)(mean)
         packed = Packed(rows, packed.modules)
     own = dict(zip(model.drifting, mean[:, n:].T, strict=True))
     return Values(path.t, mean[:, :n], path.u, packed), own
+
+
+@eqx.filter_jit
+def _closed(path: AlongRecord, mean: Float[Array, "n m"]) -> Float[Array, "n m"]:
+    return jax.vmap(path.model.closed)(path.t, mean, path.u)
 
 
 @eqx.filter_jit

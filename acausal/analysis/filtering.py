@@ -13,10 +13,9 @@ from typing import Any, NamedTuple, Protocol
 
 import jax
 import jax.numpy as jnp
-from jax.scipy.linalg import cho_factor, cho_solve, solve_triangular
 from jaxtyping import Array, Bool, Float, PRNGKeyArray
 
-from acausal._jax import value_and_jacobian
+from acausal._jax import cholesky, solve_lower, solve_upper, value_and_jacobian
 
 ROUNDING = 1e-13
 """What is smaller than this, relative to the variances, is rounding."""
@@ -73,11 +72,11 @@ def by_points(function: Function, belief: Belief) -> Linear:
     mean, covariance, _ = belief
     m = len(mean)
     least = ROUNDING * jnp.maximum(jnp.diag(covariance), ROUNDING)
-    root = jnp.linalg.cholesky(covariance + jnp.diag(least))
+    root = cholesky(covariance + jnp.diag(least))
     apart = jnp.sqrt(m) * root.T
     y = jax.vmap(function)(jnp.concatenate([mean + apart, mean - apart]))
     spread = (y[:m] - y[m:]) / (2 * jnp.sqrt(m))
-    slope = solve_triangular(root, spread, lower=True, trans=1).T
+    slope = solve_upper(root, spread).T
     bent = (y[:m] + y[m:]) / 2 - jnp.mean(y, axis=0)
     return Linear(jnp.mean(y, axis=0), slope, bent.T @ bent / m)
 
@@ -92,7 +91,7 @@ class Linearized(NamedTuple):
     line: Callable[[Function, Belief], Linear]
 
     def forecast(
-        self, belief: Belief, step: Function, sigma: Float[Array, " m"], key: PRNGKeyArray
+        self, belief: Belief, step: Function, sigma: Float[Array, " m"], key: PRNGKeyArray | None
     ) -> tuple[Belief, Float[Array, "m m"]]:
         """The belief after a step that adds noise, and its covariance with that before."""
         mean, slope, rest = self.line(step, belief)
@@ -100,7 +99,7 @@ class Linearized(NamedTuple):
         return Belief(mean, _symmetric(slope @ shared + rest) + jnp.diag(sigma**2)), shared
 
     def correct(
-        self, belief: Belief, observe: Function, measured: Measured, key: PRNGKeyArray
+        self, belief: Belief, observe: Function, measured: Measured, key: PRNGKeyArray | None
     ) -> tuple[Belief, Innovation]:
         """The belief after a measurement, in Joseph's form."""
         y, slope, rest = self.line(observe, belief)
@@ -225,7 +224,7 @@ def smoothed(
 
     def back(later: Belief, row: tuple[Array, ...]) -> tuple[Belief, Belief]:
         mean, covariance, ahead_mean, ahead_covariance, shared = row
-        gain = shared @ _inverse(ahead_covariance)
+        gain = shared @ inverse(ahead_covariance)
         mean = mean + gain @ (later.mean - ahead_mean)
         covariance = covariance + gain @ (later.covariance - ahead_covariance) @ gain.T
         belief = Belief(mean, _symmetric(covariance))
@@ -253,15 +252,16 @@ def _innovation(
     y: Float[Array, " p"], covariance: Float[Array, "p p"], measured: Measured
 ) -> Innovation:
     value = jnp.where(measured.known, measured.y - y, 0.0)
-    root, low = cho_factor(covariance, lower=True)
-    misfit = value @ cho_solve((root, low), value)
+    root = cholesky(covariance)
+    white = solve_lower(root, value[:, None])
     size = 2 * jnp.sum(jnp.log(jnp.diag(root)))
     constant = jnp.sum(measured.known) * jnp.log(2 * jnp.pi)
-    return Innovation(value, covariance, -0.5 * (misfit + size + constant))
+    return Innovation(value, covariance, -0.5 * (jnp.sum(white**2) + size + constant))
 
 
 def _gain(shared: Float[Array, "m p"], found: Innovation) -> Float[Array, "m p"]:
-    return cho_solve(cho_factor(found.covariance, lower=True), shared.T).T
+    root = cholesky(found.covariance)
+    return solve_upper(root, solve_lower(root, shared.T)).T
 
 
 def _of(members: Float[Array, "N m"]) -> Belief:
@@ -277,7 +277,7 @@ def _symmetric(a: Float[Array, "m m"]) -> Float[Array, "m m"]:
     return (a + a.T) / 2
 
 
-def _inverse(a: Float[Array, "m m"]) -> Float[Array, "m m"]:
+def inverse(a: Float[Array, "m m"]) -> Float[Array, "m m"]:
     """The inverse of a covariance; of what is known exactly, zero."""
     size = jnp.sqrt(jnp.diag(a))
     scale = jnp.where(size > 0, 1 / jnp.where(size > 0, size, 1.0), 0.0)

@@ -59,6 +59,13 @@ class TrackedModel(eqx.Module):
         own = zip(self.drifting, z[len(self.system.states) :], strict=True)
         return self.system.pack({**self.params, **dict(own)}) if self.drifting else self.packed
 
+    def closed(self, t: Array, z: Float[Array, " m"], u: Float[Array, " n_inputs"]) -> Array:
+        """An estimate whose guesses of closed loops are the solutions, to which a correction moves them but nearly."""
+        if not len(self.system.reduced.guessed):
+            return z
+        x = self.system.initializer.closed(self.values(t, z, u))
+        return jnp.concatenate([x, z[len(self.system.states) :]])
+
     def after(self, z: Float[Array, " m"], step: Steps) -> Float[Array, " m"]:
         """The estimate after a step, without noise."""
         n = len(self.system.states)

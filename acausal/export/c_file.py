@@ -1,4 +1,4 @@
-"""`c`: a model's differential equations as C."""
+"""`c`: a model's differential equations, or an observer's step, as C."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from acausal._jax import need_known, precision
+from acausal.analysis import Observer
 from acausal.errors import DataError, shown
 from acausal.events import before_events
 from acausal.export.c_text.code import write_code
@@ -17,10 +18,12 @@ from acausal.export.c_text.header import header
 from acausal.export.c_text.reserved import RESERVED
 from acausal.export.c_text.source import source
 from acausal.export.c_text.steps import scheme_named
+from acausal.export.c_text.target_text import target_header, target_source, target_text
 from acausal.export.c_text.text import Text
 from acausal.export.names import Run, runs
 from acausal.export.needs import need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
+from acausal.export.target import target_of
 from acausal.export.vector import ParameterVector
 from acausal.files import need_path, new_file, write_files
 from acausal.modeling import names_in
@@ -31,7 +34,7 @@ PRECISION = {"float64": "double", "float32": "float"}
 
 
 def c(
-    system: System,
+    model: System | Observer,
     folder: str | Path,
     params: Mapping[str, Any] | None = None,
     *,
@@ -43,18 +46,23 @@ def c(
     ranges: Ranges | None = None,
     overwrite: bool = False,
 ) -> tuple[Path, Path]:
-    """Write a model's equations as C99: a header and a source, without heap and without static memory.
+    """Write a model's equations, or an observer's step, as C99: a header and a source, without heap or static memory.
 
     Networks, wrappers and Newton's method for algebraic loops are part of it; arrays of components are loops. The
     header says how to use it. Start values that follow from parameters or inputs are computed there, too, unless they
     need an operation without C or much memory; the header says so.
 
+    An observer's step is one function of one struct: time, inputs and measurements go in, and it remembers the rest, as
+    `Observer.step` does.
+
     Arguments:
-        system: a compiled model.
+        model: a compiled model, or an observer, which has its parameters and its steps already: of the other arguments
+            it takes ``name``, ``outputs``, ``dtype`` and ``overwrite``.
         folder: where the files are written; it is made if need be.
         params: as `System.parameters` gives them, for example ``fit.params``; by default the model's.
         name: of files, struct and functions; by default the model's class in small letters.
-        outputs: names of the variables to compute besides the derivatives; by default the model's states.
+        outputs: names of the variables to compute besides the derivatives; by default the model's states. Of an
+            observer those to estimate besides what it remembers; by default none.
         solver: of the fixed steps, by its name in `acausal.simulate`; for stiff models one of ``"implicit_euler"``,
             ``"kvaerno3"``, ``"kvaerno4"``, ``"kvaerno5"``.
         derivatives: whether directional derivatives by time, states, inputs and parameters are written.
@@ -70,15 +78,25 @@ def c(
         DataError: for an unknown name, a file that exists, or an argument that does not fit.
         ExportError: for an operation without C, or a solver that has no fixed steps in C.
     """
-    need_exportable(system, "c")
+    if isinstance(model, Observer):
+        if (params, ranges, solver, derivatives) != (None, None, "rk4", True):
+            raise DataError(
+                "export.c: an observer has its own parameters and steps; give them to ac.observer."
+            )
+        target = target_of(model, None, None, None, outputs or (), None, False, "c")
+        real = PRECISION[precision(dtype).name]
+        observed = target_text(target, _name(target.title.replace(" ", "_"), name), "step", real)
+        parts = observed.name, target_header(observed), target_source(observed)
+    else:
+        need_exportable(model, "c")
+        watch = watched(model, ranges, "c")
+        text = model_text(model, params, name, outputs, solver, derivatives, dtype, watch)
+        parts = text.name, header(text), source(text)
     path = need_path(folder, "export.c")
-    text = model_text(
-        system, params, name, outputs, solver, derivatives, dtype, watched(system, ranges, "c")
-    )
-    files = path / f"{text.name}.h", path / f"{text.name}.c"
+    files = path / f"{parts[0]}.h", path / f"{parts[0]}.c"
     for file in files:
         new_file(file, "export.c", overwrite, need_folder=False)
-    write_files({files[0]: header(text), files[1]: source(text)}, make_folders=True)
+    write_files(dict(zip(files, parts[1:], strict=True)), make_folders=True)
     return files
 
 
@@ -94,15 +112,7 @@ def model_text(
 ) -> Text:
     """What is written about a model; arguments as of `c`."""
     title = system.model._node.title or type(system.model).__name__
-    chosen = _identifier(title) if name is None else name
-    if not isinstance(chosen, str) or not re.fullmatch(r"[A-Za-z]\w*", chosen, re.ASCII):
-        raise DataError(
-            f"export.c: name={shown(name)} is no name in C; use letters, digits and underscores."
-        )
-    if chosen in RESERVED:
-        raise DataError(
-            f"export.c: name='{chosen}' is a word of C or of the model's file; give another."
-        )
+    chosen = _name(title, name)
     real = PRECISION[precision(dtype).name]
     wanted = tuple(system.states) if outputs is None else names_in(outputs, "export: outputs")
     need_known("export", params)
@@ -123,6 +133,24 @@ def model_text(
         _with_units(wanted, system), parameters, start,
         tuple(_discrete(system)), start_d,
     )  # fmt: skip
+
+
+def _name(title: str, name: str | None) -> str:
+    """What struct and functions are called, by default after a title.
+
+    Raises:
+        DataError: for what is no name in C.
+    """
+    chosen = _identifier(title) if name is None else name
+    if not isinstance(chosen, str) or not re.fullmatch(r"[A-Za-z]\w*", chosen, re.ASCII):
+        raise DataError(
+            f"export.c: name={shown(name)} is no name in C; use letters, digits and underscores."
+        )
+    if chosen in RESERVED:
+        raise DataError(
+            f"export.c: name='{chosen}' is a word of C or of the model's file; give another."
+        )
+    return chosen
 
 
 def _start(system: System, params: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:

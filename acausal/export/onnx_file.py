@@ -10,6 +10,7 @@ from typing import Any
 from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
+from acausal.analysis import Observer
 from acausal.export.needs import need_package
 from acausal.export.target import Target, target_of, traced
 from acausal.files import new_file, write_files
@@ -17,7 +18,7 @@ from acausal.system import System
 
 
 def onnx(
-    model: System | Callable[..., Any],
+    model: System | Observer | Callable[..., Any],
     path: str | Path,
     params: Mapping[str, Any] | None = None,
     *,
@@ -38,7 +39,8 @@ def onnx(
     all elements.
 
     Arguments:
-        model: a compiled system, or a network: a module that is called with scalars.
+        model: a compiled system; a network: a module that is called with scalars; or an observer, whose step takes
+            ``t``, ``u``, ``y`` and what it remembers, which is also its result.
         path: the file, usually ``….onnx``.
         params: of the system; by default its own.
         network: the name of a network among ``params``, to write it alone.

@@ -13,6 +13,7 @@ from jax import export as jax_export
 from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
+from acausal.analysis import Observer
 from acausal.errors import DataError, nearest, shown
 from acausal.export.needs import need_package
 from acausal.export.target import Target, arguments, target_of
@@ -28,7 +29,7 @@ PLATFORMS = ("cpu", "cuda", "rocm", "tpu")
 
 
 def stablehlo(
-    model: System | Callable[..., Any],
+    model: System | Observer | Callable[..., Any],
     path: str | Path,
     params: Mapping[str, Any] | None = None,
     *,

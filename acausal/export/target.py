@@ -1,10 +1,10 @@
-"""What is exported to ONNX and StableHLO: a network or a right-hand side, as a function of named arrays."""
+"""What is exported: a network, a right-hand side or an observer's step, as a function of named arrays."""
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import jax
@@ -14,6 +14,7 @@ from jax import Array, export as jax_export
 from jax.extend.core import ClosedJaxpr
 
 from acausal._jax import need_known
+from acausal.analysis import Memory, Observer
 from acausal.errors import DataError, nearest, need_compiled, shown
 from acausal.export.needs import all_parameters, need_exportable
 from acausal.modeling import Component, ModuleCall, Reference, names_in
@@ -62,7 +63,7 @@ class Target:
 
 
 def target_of(
-    model: System | Callable[..., Any],
+    model: System | Observer | Callable[..., Any],
     params: Mapping[str, Any] | None,
     network: str | None,
     inputs: Sequence[str] | None,
@@ -71,7 +72,7 @@ def target_of(
     parameters: bool,
     function: str,
 ) -> Target:
-    """A right-hand side, a network of a system, or a network; arguments as of ``export.onnx``.
+    """A right-hand side, an observer's step, a network of a system, or a network; arguments as of ``export.onnx``.
 
     Arguments:
         function: that was called, for messages.
@@ -86,6 +87,12 @@ def target_of(
         raise DataError(
             f"export: units are texts by name, such as {{'s_rel': 'm'}}, not {shown(units)}"
         )
+    if isinstance(model, Observer):
+        if any(a is not None for a in (params, network, inputs)) or parameters:
+            raise DataError(
+                f"export.{function}: of an observer only outputs can be named; it has its own parameters."
+            )
+        return _of_observer(model, names_in(outputs, "export: outputs"))
     if isinstance(model, System):
         given = all_parameters(model, params)
         if network is None:
@@ -200,6 +207,41 @@ def _of_system(
     if not results:
         raise DataError("export: the model has no states; name its outputs=[...].")
     return Target(type(system.model).__name__, _flat(call, results), tuple(ports), tuple(results))
+
+
+def _of_observer(observer: Observer, outputs: tuple[str, ...]) -> Target:
+    """The step: ``t``, ``u`` and ``y``, where NaN is not measured, and what it remembers, which is also its result.
+
+    Raises:
+        ModelError: for an unknown output.
+    """
+    step = observer.step_of_arrays
+    system, names, start = step.model.system, step.names, step.start
+    units = tuple(map(system.unit, names))
+    ports = [Port("t", (), ("time",), ("s",)), *_vector("u", system.inputs, system)]
+    ports += _vector("y", step.model.sensors, system)
+    pairs = tuple(f"{a}, {b}" for a in names for b in names)
+    products = tuple(f"{a} {b}".strip() for a in units for b in units)
+    remembered = [
+        Port("t_before", (), ("time",), ("s",), np.asarray(start.t)),
+        *(replace(p, name="u_before", default=np.asarray(start.u)) for p in ports if p.name == "u"),
+        Port("mean", (len(names),), names, units, np.asarray(start.mean)),
+        Port("covariance", (len(names),) * 2, pairs, products, np.asarray(start.covariance)),
+    ]
+
+    def call(*arrays: Array) -> tuple[Array, ...]:
+        given = dict(zip([p.name for p in (*ports, *remembered)], arrays, strict=True))
+        nothing = jnp.zeros(0)
+        before = Memory(
+            given["t_before"], given.get("u_before", nothing), given["mean"], given["covariance"]
+        )
+        after = step.after(before, given["t"], given.get("u", nothing), given["y"])
+        found = [after.t, *([after.u] if system.inputs else []), after.mean, after.covariance]
+        return (*found, step.read(outputs, after)) if outputs else tuple(found)
+
+    results = [replace(p, default=None) for p in remembered] + _vector("values", outputs, system)
+    title = f"{type(system.model).__name__} observer"
+    return Target(title, _flat(call, results), (*ports, *remembered), tuple(results))
 
 
 def _of_network(

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import is_number, value_and_jacobian
+from acausal._jax import is_number, levenberg_marquardt, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, listing, nearest, shown
 from acausal.jobs import Workers, blocks, need_workers, on_workers
@@ -22,7 +22,6 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.start_prior import StartPrior, start_prior
 from acausal.training.objective.start_sizes import found_starts, with_sizes
 from acausal.training.objective.trainable import Trainable
-from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.prediction import Prediction, Predictions
 from acausal.training.record_fit import RecordFit, of_records
 from acausal.training.trained_model import TrainedModel, out_of_range

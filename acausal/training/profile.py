@@ -17,6 +17,7 @@ import numpy as np
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float
 
+from acausal._jax import levenberg_marquardt
 from acausal.errors import TrainingError, nearest, shown
 from acausal.reporting import plot_profile
 from acausal.training.member import stacked
@@ -26,7 +27,6 @@ from acausal.training.objective.trainable import Trainable
 from acausal.training.objective.whole_record import gauss_newton, over_whole_record
 from acausal.training.optimizers.gradients import with_gauss_newton_hessian, with_gradient
 from acausal.training.optimizers.lbfgs import lbfgs
-from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.optimizers.trainer import Trainer, advance, begin
 from acausal.training.uncertainty.confidence import Confidence
 

@@ -10,23 +10,23 @@ from typing import NamedTuple
 import numpy as np
 import optax
 
+from acausal._jax import DescentMethod, levenberg_marquardt
 from acausal.errors import TrainingError
 from acausal.training.history import History
 from acausal.training.objective.equation_error import equation_error
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.whole_record import (
     gauss_newton,
+    over_beginnings,
     over_whole_record,
     over_windows,
 )
-from acausal.training.optimizers.descent import DescentMethod
 from acausal.training.optimizers.gradients import (
     Evaluate,
     with_gauss_newton_hessian,
     with_gradient,
 )
 from acausal.training.optimizers.lbfgs import lbfgs
-from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.optimizers.trainer import Trainer
 from acausal.training.options import FitOptions
 
@@ -44,7 +44,8 @@ class Stage(NamedTuple):
         kind: one of the `UPDATES` of the options.
         epochs: updates at most.
         title: what to call it.
-        rows: of windows that lie side by side and start from measured states; ``None`` for what the options say.
+        rows: of windows that lie side by side and start from measured states; of whole records, the first ones;
+            ``None`` for what the options say, or for all.
         descent: whether windows are trained by L-BFGS, all at once.
         above: it is left out where the loss over the whole record is not above.
         onward: whether the next part goes on from its end, and not from the best over the whole record.
@@ -133,7 +134,8 @@ def segments(
 def _objective(stage: Stage, problem: Problem) -> Problem:
     if stage.rows is None:
         return KINDS[stage.kind].objective(problem)
-    return over_windows(problem, stage.rows)
+    cut = over_windows if stage.kind == "sequences" else over_beginnings
+    return cut(problem, stage.rows)
 
 
 def _segment(problem: Problem, stage: Stage, options: FitOptions) -> Segment:

@@ -18,6 +18,7 @@ from acausal.analysis.filtering import (
     by_points,
     run,
 )
+from examples.qvm.model import with_networks
 from tests.support.hybrid import Ball
 from tests.support.oscillator import C, D, M, force, plain
 
@@ -138,6 +139,33 @@ def test_an_observer_steps_as_the_estimate_does():
         seen.step(100.0, y={"mass.v": 0.0})
 
 
+def test_late_measurements_count_as_if_they_had_come_in_time():
+    """One comes at the time of a step, one between two; inputs then are on the line between those of the steps."""
+    given = {k: v for k, v in GIVEN.items() if k not in ("sensors", "noise")}
+    late, prompt = (
+        ac.observer(plain(), GIVEN["sensors"], GIVEN["noise"], H, late=seconds, **given)
+        for seconds in (2.4 * H, 0.0)
+    )
+    force = {0.0: 1.0, H: 3.0, 1.5 * H: 2.0, 2 * H: 1.0, 3 * H: 0.0, 4 * H: 1.0}
+    seen = {0.0: {"mass.s": 0.1}, H: {"mass.s": 0.12, "mass.a": 1.0}, 1.5 * H: {"mass.a": 2.0}}
+    for t, f in force.items():
+        wanted = prompt.step(t, {"push.f": f}, seen.get(t))
+    for k in range(4):
+        late.step(
+            k * H, {"push.f": force[k * H]}, {"mass.s": seen[k * H]["mass.s"]} if k < 2 else {}
+        )
+    late.step(1.5 * H, y=seen[1.5 * H])
+    late.step(H, y={"mass.a": 1.0})
+    found = late.step(4 * H, {"push.f": force[4 * H]})
+    assert late.t == prompt.t
+    np.testing.assert_allclose(list(found.values()), list(wanted.values()), atol=1e-13)
+    np.testing.assert_allclose(late.covariance, prompt.covariance, atol=1e-13)
+    with pytest.raises(ac.DataError, match=r"not later than the last step, at 0\.2 s; for"):
+        late.step(H, y={"mass.a": 1.0})
+    with pytest.raises(ac.DataError, match=r"inputs are known up to 0\.2 s; leave u out"):
+        late.step(3 * H, {"push.f": 1.0}, {"mass.a": 1.0})
+
+
 class Swing:
     """The oscillator without a force along rows, in matrices."""
 
@@ -215,6 +243,25 @@ def test_states_and_a_parameter_of_a_pendulum_are_found(method):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("method", ["ekf", "ukf", "mhe"])
+def test_the_wheel_of_a_vehicle_is_seen_through_the_acceleration_of_its_body(method):
+    """From a start that is 2 cm and 0.3 m/s off; a simulation from there takes its time to forget it."""
+    system, t = ac.compile(with_networks()), 0.002 * np.arange(300)
+    inputs = {"road.v_ref": 0.4 * np.sin(25 * t) + 0.2 * np.sin(60 * t)}
+    truth, wrong = (
+        ac.simulate(system, t[-1], dt=0.002, x0=x0, inputs=inputs, solver="rk4")
+        for x0 in ({"wheel.s": 0.02, "wheel.v": 0.3}, {})
+    )
+    noisy = truth["body.a"] + 0.05 * np.random.default_rng(0).standard_normal(300)
+    found = ac.estimate(
+        system, ac.Data(t, {**inputs, "body.a": noisy}), method, sensors={"body.a": 0.05}, window=10,
+        noise={"wheel.v": 0.02, "body.v": 0.02}, states={"wheel.s": 0.02, "wheel.v": 0.3},
+    )  # fmt: skip
+    off, without = (np.asarray(r["wheel.v"] - truth["wheel.v"])[10:60] for r in (found, wrong))
+    assert np.sqrt(np.mean(off**2)) < 0.2 * np.sqrt(np.mean(without**2))
+
+
+@pytest.mark.slow
 def test_fitted_noise_is_more_likely_than_the_default():
     given = {"dt": H, "states": GIVEN["states"], "sensors": ["mass.s"]}
     fitted, default = (ac.estimate(plain(), record(), noise=n, **given) for n in ("fit", None))
@@ -234,7 +281,10 @@ def test_fitted_noise_is_more_likely_than_the_default():
         ({"states": {"mass.a": 1.0}}, "states: 'mass.a' is not a state of the model"),
         ({"parameters": {"spring.k": 1.0}}, "parameters: 'spring.k' is not a parameter of the model"),
         ({"method": "kf"}, "No method 'kf'"),
-        ({"method": "mhe"}, "a moving horizon is not there yet"),
+        ({"bounds": {"mass.s": (0.0, 1.0)}}, "bounds: method='ekf' keeps none; take method='mhe'"),
+        ({"method": "mhe", "window": 1}, "window"),
+        ({"method": "mhe", "bounds": {"mass.a": (0, 1)}}, "bounds: 'mass.a' is not estimated"),
+        ({"method": "mhe", "bounds": {"mass.s": (1, 0)}}, "'mass.s' has (1, 0); give two numbers"),
         ({"dt": 0.0}, "dt=0.0 is not a step"),
     ],
 )  # fmt: skip

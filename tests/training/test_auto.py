@@ -25,7 +25,7 @@ from acausal.training.auto.step_choice import StepChoice, finer_steps
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
-from benchmarks.by_default import NOISE, PROBLEMS, by_default, fresh_error, law_error, record
+from benchmarks.by_default import NOISE, PROBLEMS, Known, by_default, fresh_error, law_error, record
 from tests.support.slow import some_slow
 from tests.training.test_checkpoint import stop
 
@@ -214,6 +214,44 @@ def test_a_training_goes_on_bit_for_bit_and_members_share_the_start(tmp_path: Pa
     scales = {fit.params["damper.net"].input_scale for fit in both.fits}
     assert scales == {whole.params["damper.net"].input_scale}
     assert all(fit.verdict is not None and fit.verdict.good for fit in both.fits)
+
+
+class Sprung(ac.Component):
+    """A mass between a damper and an unknown spring."""
+
+    def __init__(self, spring: ac.Component) -> None:
+        super().__init__()
+        self.wall, self.spring, self.damper = tl.Fixed(), spring, tl.Damper(d=0.8)
+        self.mass, self.push = tl.Mass(m=0.4), tl.Force()
+        self.connect(self.wall.flange, self.spring.flange_a, self.damper.flange_a)
+        self.connect(self.spring.flange_b, self.damper.flange_b, self.mass.flange_a)
+        self.connect(self.mass.flange_b, self.push.flange)
+
+
+@pytest.mark.slow
+def test_beginnings_grow_where_no_state_is_measured_and_no_linear_law_explains() -> None:
+    def hardening(s: jax.Array) -> jax.Array:
+        return 200 * s + 3e5 * s**3
+
+    rng = np.random.default_rng(0)
+    t = np.arange(0.0, 5.0, 0.005)
+    force = np.interp(t, np.arange(0.0, 5.1, 0.1), rng.uniform(-10, 10, 51))
+    truth = ac.compile(Sprung(neural.Compliance(net=Known(hardening))))
+    run = ac.simulate(truth, (0.0, t[-1]), saveat=t, inputs={"push.f": (t, force)}, rtol=1e-9)
+    a = np.asarray(run["mass.a"])
+    noisy = a + 0.01 * a.std() * rng.standard_normal(len(t))
+    data = ac.Data(t, {"push.f": force, "mass.a": noisy})
+    fit = ac.fit(ac.compile(Sprung(neural.Compliance())), data, "mass.a", progress=False)
+    assert fit.verdict is not None
+    assert fit.verdict.good
+    assert [stage.title for stage in fit.stages][1:3] == ["first 62 samples", "first 124 samples"]
+    # An acceleration does not tell where the spring is relaxed.
+    learned = jax.vmap(fit.params["spring.net"])
+    fine = jnp.linspace(*np.quantile(fit.arguments["spring.net"], [0.02, 0.98]), 500)
+    relaxed = float(jnp.interp(0.0, learned(fine), fine))
+    assert float(jnp.max(jnp.abs(learned(fine) - hardening(fine - relaxed)))) < 0.05 * float(
+        jnp.ptp(learned(fine))
+    )
 
 
 def test_noise_is_found_beside_a_smooth_signal() -> None:

@@ -13,11 +13,11 @@ import pytest
 from jax.flatten_util import ravel_pytree
 
 import acausal as ac
+from acausal._jax import levenberg_marquardt
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.whole_record import over_whole_record
 from acausal.training.optimizers.gradients import with_gauss_newton_hessian, with_gradient
-from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.options import FitOptions
 from tests.support.oscillator import C, learned, plain, record
 from tests.support.slow_machine import slow_down

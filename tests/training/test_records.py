@@ -14,6 +14,7 @@ import pytest
 import acausal as ac
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
+from acausal.training.objective.whole_record import over_beginnings
 from acausal.training.options import FitOptions
 from tests.support.oscillator import force, learned, plain
 
@@ -151,6 +152,15 @@ def offset() -> ac.System:
             self.connect(self.push.flange, self.mass.flange_b)
 
     return ac.compile(Offset())
+
+
+def test_beginnings_are_the_first_rows_of_every_record():
+    whole = pose(sequence_length=None)
+    cut = over_beginnings(whole, 301)  # that of 2 s is shorter
+    first = np.asarray(whole.records.first)
+    rows = np.concatenate([a + np.arange(n) for a, n in zip(first, (201, 301, 301), strict=True)])
+    np.testing.assert_allclose(cut.simulate(cut.start()).x, whole.simulate(whole.start()).x[rows])
+    np.testing.assert_array_equal(cut.records.y, whole.records.y[rows])
 
 
 def test_sequences_end_with_their_record():

@@ -13,6 +13,7 @@ import optax
 import pytest
 
 import acausal as ac
+from acausal._jax import levenberg_marquardt
 from acausal.training.build_problem import build_problem
 from acausal.training.history import TrainingLog
 from acausal.training.objective.records import Places
@@ -20,7 +21,6 @@ from acausal.training.objective.sequences import Batch
 from acausal.training.objective.smoothing import rate, smoothed
 from acausal.training.objective.whole_record import over_whole_record
 from acausal.training.optimizers.gradients import LossDerivatives
-from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.optimizers.trainer import Trainer, advance, begin
 from acausal.training.options import FitOptions
 from tests.support.oscillator import learned, record

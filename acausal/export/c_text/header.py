@@ -85,11 +85,11 @@ def header(text: Text) -> str:
         *(c_file("events.h", name) if text.has_events else []),
         "typedef struct {",
         f"    {name}_real time;{' ' * max(1, 20 - len(name))}/* s */",
-        *_field(text, "x", text.states, sizes.states, "states"),
-        *_field(text, "u", text.inputs, sizes.inputs, "inputs"),
-        *_field(text, "y", text.outputs, sizes.outputs, "outputs"),
-        *_field(
-            text,
+        *field_lines(name, "x", text.states, sizes.states, "states"),
+        *field_lines(name, "u", text.inputs, sizes.inputs, "inputs"),
+        *field_lines(name, "y", text.outputs, sizes.outputs, "outputs"),
+        *field_lines(
+            name,
             "p",
             text.parameters,
             sizes.parameters,
@@ -151,13 +151,18 @@ def header(text: Text) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _field(
-    text: Text, field: str, groups: Sequence[tuple[Run, str]], size: int, what: str
+def field_lines(
+    name: str, field: str, groups: Sequence[tuple[Run, str]], size: int | None, what: str
 ) -> Iterator[str]:
+    """A field of a struct and what it holds: names in groups, with units; a size of None is a single number."""
     shown = [f"[{_places(run)}] {run.name}{f' in {unit}' if unit else ''}" for run, unit in groups]
-    line = f"{what}: {', '.join(shown[:40])}{', ...' if len(shown) > 40 else ''}" if shown else what
-    comment = textwrap.wrap(line.replace("*/", "* /"), 100, break_long_words=False)
-    yield (f"    {text.name}_real {field}[{least(size)}]; /* " + "\n       ".join(comment) + " */")
+    if size is None:
+        shown = [text.partition("] ")[2] for text in shown]
+    line = f"{', '.join(shown[:40])}{', ...' if len(shown) > 40 else ''}"
+    line = ": ".join(part for part in (what, line) if part).replace("*/", "* /")
+    comment = textwrap.wrap(line, 100, break_long_words=False)
+    length = "" if size is None else f"[{least(size)}]"
+    yield (f"    {name}_real {field}{length}; /* " + "\n       ".join(comment) + " */")
 
 
 def _discrete_fields(text: Text) -> Iterator[str]:
@@ -165,7 +170,7 @@ def _discrete_fields(text: Text) -> Iterator[str]:
         return
     runs = [(Run(n, "", None, i, 1, 1), "") for i, n in enumerate(text.discrete)]
     what = "discrete variables, first the conditions"
-    yield from _field(text, "d", runs, text.code.sizes.discrete, what)
+    yield from field_lines(text.name, "d", runs, text.code.sizes.discrete, what)
     yield f"    {text.name}_events e;"
 
 

@@ -7,13 +7,15 @@ name belongs.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from acausal.export.c_text import events
 from acausal.export.c_text.code import EXCESS
 from acausal.export.c_text.expressions import literal
+from acausal.export.c_text.functions import Function
+from acausal.export.c_text.lowering import Memory
 from acausal.export.c_text.steps import attempt_lines, step_lines
 from acausal.export.c_text.text import Text, c_file, least, prelude
 from acausal.simulation import KAPPA, SLOW, STAGE_STEPS, STAGE_TOLERANCE
@@ -28,8 +30,7 @@ def source(text: Text) -> str:
 
 
 def _lines(text: Text) -> Iterator[str]:
-    name, sizes, memory = text.name, text.code.sizes, text.code.memory
-    bodies = "\n".join(_without_comments(f.lines) for f in text.code.functions.values())
+    name, sizes = text.name, text.code.sizes
     yield f'#include "{name}.h"'
     if text.has_events or text.has_edges:
         yield "#include <float.h>"
@@ -49,13 +50,7 @@ def _lines(text: Text) -> Iterator[str]:
     yield f"enum {{ STATES = {sizes.states}, INPUTS = {sizes.inputs}, OUTPUTS = {sizes.outputs} }};"
     yield f"enum {{ KNOWN = {sizes.known} }};"
     yield ""
-    for helper, lines in sorted(prelude().items()):
-        if helper == "all_finite" or (helper in memory.prelude and _mentions(bodies, helper)):
-            yield from (lines, "")
-    for table in memory.tables:
-        if _mentions(bodies, table.name):
-            yield from _table(table.name, np.asarray(table.table), table.kind)
-    yield ""
+    yield from helpers(text.code.functions.values(), text.code.memory)
     yield from _function(text, "rates", ["t", "x", "u"], ["dx"])
     yield from _function(text, "outputs", ["t", "x", "u"], ["y"])
     if text.has_tangent:
@@ -76,6 +71,18 @@ def _lines(text: Text) -> Iterator[str]:
         yield from _filling("d", text.discrete_start)
     yield from c_file("model.c", name)
     yield from _steps(text)
+
+
+def helpers(functions: Iterable[Function], memory: Memory) -> Iterator[str]:
+    """Helper functions, and tables, that some functions need."""
+    bodies = "\n".join(_without_comments(f.lines) for f in functions)
+    for helper, lines in sorted(prelude().items()):
+        if helper == "all_finite" or (helper in memory.prelude and _mentions(bodies, helper)):
+            yield from (lines, "")
+    for table in memory.tables:
+        if _mentions(bodies, table.name):
+            yield from _table(table.name, np.asarray(table.table), table.kind)
+    yield ""
 
 
 def _function(

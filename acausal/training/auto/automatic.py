@@ -31,6 +31,9 @@ MOST = 4000
 EXPLAINS = 0.5
 """The linear start explains a record if it leaves less than this part of the targets' deviation."""
 
+NOTHING = 0.9
+"""Where no state is measured, it is sought over beginnings of records if over all of them it leaves more than this."""
+
 PIECE, PIECES = 25, 60
 """Samples of the pieces of records in which it is sought where it explains nothing; and how many pieces."""
 
@@ -115,8 +118,9 @@ def automatic(
         own = own if x0 is None else replace(own, x0=x0)
         return build_problem(system, data, targets, {**params[0], **linear}, own)
 
+    rows = int(np.median([len(data) for data in records.values()]))
     level = EXPLAINS * np.sqrt(len(targets))
-    step, start, explains = StepChoice(None), None, False
+    step, start, explains, begun = StepChoice(None), None, False, max(2 * PIECE, rows // 16)
     for trial in tried_steps(options):
         found = _start(problem_of(part, trial), shapes)
         if start is None or found.loss < 0.8 * start.loss:
@@ -130,14 +134,22 @@ def automatic(
                 step, start = trial, replace(short, trainable=replace(short.trainable, states=None))
                 break
     assert start is not None
+    if shapes and start.problem.records.x is None:
+        explains = start.loss < NOTHING * np.sqrt(len(targets))
+        lengths = () if explains else (rows // 4, rows // 16, 2 * PIECE)
+        for first in (n for n in lengths if n >= 2 * PIECE):
+            short = _start(problem_of(_beginnings(part, first), step), shapes)
+            if short.loss < start.loss:
+                start, begun = short, first
+            if short.loss < level:
+                break
     scale = options.loss == "nrmse"
     noise = noise_loss(problem_of(part, step).records) if scale else None
     step = chosen_steps(step, start.problem, start.trainable, noise, options)
     laws = _scales(start, shapes, explains)
     new = tuple({**own, **{n: with_scales(own[n], *laws[n]) for n in shapes}} for own in params)
     settled = step.of(options, records)
-    rows = int(np.median([len(data) for data in records.values()]))
-    stages = _stages(start.problem, rows, new[0], names, explains, noise, options)
+    stages = _stages(start.problem, rows, begun, new[0], names, explains, noise, options)
     free = None if step.solver is None or options.dt is not None else step
     return Automatic(settled, new, stages, free, start if shapes else None, noise, fixed)
 
@@ -162,6 +174,12 @@ def _part(records: dict[str, Data], most: int) -> dict[str, Data]:
             break
         found[name] = data if len(data) <= left else data.between(data.time[0], data.time[left - 1])
     return {n: found[n] for n in records if n in found}
+
+
+def _beginnings(data: dict[str, Data], rows: int) -> dict[str, Data]:
+    """So many first rows of every record."""
+    ends = {n: d.time[min(rows, len(d)) - 1] for n, d in data.items()}
+    return {n: d.between(d.time[0], ends[n]) for n, d in data.items()}
 
 
 def _pieces(
@@ -231,6 +249,7 @@ def _scales_of(
 def _stages(
     problem: Problem,
     rows: int,
+    begun: int,
     params: Mapping[str, Any],
     names: Sequence[str],
     explains: bool,
@@ -247,15 +266,14 @@ def _stages(
     enough = -np.inf if noise is None else GOOD * noise
     measured = problem.records.x is not None
     whole = Stage(kind, epochs, gain=GAIN, title="whole record")
-    lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]
-    windows = [
-        Stage(
-            "sequences", WINDOWS, rows=n, onward=True, title=f"windows of {n} samples", descent=True
-        )
-        for n in lengths
-    ]
-    if not measured:
-        return (whole,)
+    if measured:
+        lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]
+        part = Stage("sequences", WINDOWS, onward=True, descent=True)
+        windows = [part._replace(rows=n, title=f"windows of {n} samples") for n in lengths]
+    else:
+        part = Stage("whole_record", WINDOWS, onward=True)
+        lengths = [n for k in range(rows.bit_length()) if (n := begun << k) < 0.7 * rows]
+        windows = [part._replace(rows=n, title=f"first {n} samples") for n in lengths]
     if not explains:
         return (*windows, whole)
     if noise is None or not names:

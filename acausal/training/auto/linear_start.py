@@ -28,11 +28,17 @@ from acausal.training.optimizers.gradients import total, with_gauss_newton_hessi
 BATCH = 32
 """Points that are evaluated at once."""
 
-BEST = 4
-"""Points from which Gauss-Newton goes on."""
+SPREAD, BEST = 16, 4
+"""Points from which Gauss-Newton begins, and from which it goes on."""
 
 SIZES = tuple(10.0 ** (k / 2) for k in range(-18, 19))
 """Slopes and offsets that are tried, with both signs."""
+
+JOINT = 64
+"""Combinations of the laws of several networks that are tried."""
+
+ALIKE = 1e-4
+"""Points whose losses differ by less than this part are taken as one: a very small law acts as none."""
 
 STEPS, ENOUGH = 15, 1e-3
 """Steps of Gauss-Newton at most; it ends when the loss falls by less than this part."""
@@ -83,14 +89,14 @@ def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
     found = _Points(objective, len(start))
     base = np.asarray(start)
     best: dict[str, list[np.ndarray]] = {}
+    most = SPREAD if len(shapes) == 1 else 1
     for name in sorted(shapes, key=lambda n: not shapes[n].divides):
         own = _decades(base, places[name], shapes[name])
-        losses = found.losses(own)
+        losses = found.at(own)[0]
         kept: list[np.ndarray] = []
         for place in places[name]:  # the best of every slope, and of the offset
             rows = [k for k, point in enumerate(own) if point[place] != base[place]]
-            if rows and np.isfinite(losses[rows]).any():
-                kept.append(own[min(rows, key=losses.__getitem__)] - base)
+            kept += [own[rows[k]] - base for k in _unlike(losses[rows], most)]
         best[name] = kept
         if shapes[name].divides and kept:
             base = base + kept[0]
@@ -98,7 +104,7 @@ def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
     choices = [[np.zeros_like(base), *rows] for rows in best.values()]
     joint = [
         base + sum(rows, np.zeros_like(base))
-        for rows in itertools.islice(itertools.product(*choices), 64)
+        for rows in itertools.islice(itertools.product(*choices), JOINT)
     ]
     point, loss, hessian = _gauss_newton(found, joint, _rising(places, shapes))
     trainable = unravel(jnp.asarray(point))
@@ -109,6 +115,16 @@ def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
     )
     sensitive = {n: _law(moves, places[n], shapes[n]) for n in shapes}
     return LinearStart(laws, sensitive, loss, objective, trainable)
+
+
+def _unlike(losses: np.ndarray, most: int) -> list[int]:
+    """The best points, so many at most, no two of which have one loss."""
+    found: list[int] = []
+    for k in np.argsort(losses):
+        last = losses[found[-1]] if found else -np.inf
+        if len(found) < most and np.isfinite(losses[k]) and losses[k] - last > ALIKE * losses[k]:
+            found.append(int(k))
+    return found
 
 
 def _places(problem: Problem, shapes: dict[str, Shape]) -> dict[str, list[int]]:
@@ -158,12 +174,13 @@ class _Points:
         self.forward = isinstance(objective.solver, EXPLICIT)
         self.batch = objective.draw(jax.random.key(0))
 
-    def losses(self, points: Sequence[np.ndarray]) -> np.ndarray:
-        """Infinite where the model diverges."""
-        return np.concatenate([self.at(rows)[0] for rows in _batches(points)])
-
     def at(self, points: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Of up to `BATCH` points: losses, gradients, Hessians."""
+        """Losses, infinite where the model diverges, gradients, Hessians."""
+        each = zip(*map(self._batch, _batches(points)), strict=True)
+        loss, gradient, hessian = map(np.concatenate, each)
+        return loss, gradient, hessian
+
+    def _batch(self, points: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         count = len(points)
         filled = np.stack([*points, *[points[-1]] * (BATCH - count)])
         found = _evaluate(self.objective, self.batch, jnp.asarray(filled), self.forward)
@@ -196,13 +213,9 @@ def _gauss_newton(
     found: _Points, starts: list[np.ndarray], rising: list[int]
 ) -> tuple[np.ndarray, float, np.ndarray]:
     """The best point, its loss and Hessian."""
-    rows = [(found.at(part), part) for part in _batches(starts)]
-    known = [
-        (loss[k], part[k], gradient[k], hessian[k])
-        for (loss, gradient, hessian), part in rows
-        for k in range(len(part))
-    ]
-    known = sorted(known, key=lambda row: row[0])[:BEST]
+    loss, gradient, hessian = found.at(starts)
+    chosen = _unlike(loss, SPREAD) or [0]
+    known = [(loss[k], starts[k], gradient[k], hessian[k]) for k in chosen]
     dampings = np.geomspace(1e-6, 1e2, BATCH // BEST)
     for _ in range(STEPS):
         before = known[0][0]
@@ -220,7 +233,8 @@ def _gauss_newton(
             j = int(np.argmin(loss[own])) + own.start
             if loss[j] < known[k][0]:
                 known[k] = (loss[j], trials[j], gradient[j], hessian[j])
-        known.sort(key=lambda row: row[0])
+        chosen = _unlike(np.array([row[0] for row in known]), BEST) or [0]
+        known = [known[k] for k in chosen]
         if known[0][0] > before * (1 - ENOUGH):
             break
     loss, point, _, hessian = known[0]

@@ -133,6 +133,31 @@ class Records(eqx.Module):
         )
         return Window(steps, y, jnp.where(inside, weight, 0.0))
 
+    def beginnings(self, rows: int) -> Records:
+        """The same with so many rows of each record at most, the first ones."""
+        first, last = np.asarray(self.first), np.asarray(self.last)
+        counts = np.minimum(last - first + 1, rows)
+        chosen = np.concatenate([a + np.arange(n) for a, n in zip(first, counts, strict=True)])
+
+        def cut(a: Array) -> Array:
+            return a[chosen] if a.ndim else a
+
+        rest = (self.steps, self.y, self.weight, self.x, self.of, self.sampled)
+        steps, y, weight, x, of, sampled = jax.tree.map(cut, rest)
+        ends = jnp.asarray(np.cumsum(counts) - 1)
+        starts = ends - counts + 1
+        return replace(
+            self,
+            steps=steps,
+            y=y,
+            weight=weight,
+            x=x,
+            of=of,
+            sampled=sampled,
+            first=starts,
+            last=ends,
+        )
+
     def rows_of(self, record: int) -> Int[np.ndarray, " n"]:
         """The rows of a record that hold samples."""
         first, last = (int(np.asarray(side)[record]) for side in (self.first, self.last))

@@ -23,6 +23,11 @@ def over_whole_record(problem: Problem) -> Problem:
     return replace(problem, sequences=whole, shooting=shooting, mesh=None)
 
 
+def over_beginnings(problem: Problem, rows: int) -> Problem:
+    """The same problem with the first rows of every record as one sequence."""
+    return over_whole_record(replace(problem, records=problem.records.beginnings(rows)))
+
+
 def over_windows(problem: Problem, rows: int) -> Problem:
     """The same problem with windows of so many rows that lie side by side and start from measured states."""
     records = problem.records

@@ -20,7 +20,7 @@ from jax import lax
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.training.optimizers.descent import Descent, DescentMethod
+from acausal._jax import Descent, DescentMethod
 
 DECREASE, CURVATURE = 1e-4, 0.9
 """Wolfe's conditions: the share of the decrease by the directional derivative that the loss must fall by, and the share
@@ -46,6 +46,7 @@ class Search(Descent):
     """State of L-BFGS: the best point up to now, and the line from it along which it searches.
 
     Attributes:
+        gradient: at the best point.
         direction: of the line; ``derivative``: of the loss along it, at the best point.
         step, low, high: the trial's place on the line, and the two places that enclose the minimum.
         trials: on this line.
@@ -53,6 +54,7 @@ class Search(Descent):
         count: how many of them there are.
     """
 
+    gradient: Float[Array, " n"]
     direction: Float[Array, " n"]
     derivative: Float[Array, ""]
     step: Float[Array, ""]
@@ -86,7 +88,7 @@ def lbfgs(memory: int = 60) -> DescentMethod:
         infinite, rows = jnp.full_like(zero, jnp.inf), jnp.zeros((memory, point.size), point.dtype)
         count, no = jnp.zeros((), int), jnp.zeros((), bool)
         return Search(
-            point, infinite, none, no, none, zero, zero, zero, infinite, count, rows, rows, count
+            point, infinite, no, none, none, zero, zero, zero, infinite, count, rows, rows, count
         )
 
     def update(updates: Any, state: Any, params: Any = None, **extra: Any) -> Any:

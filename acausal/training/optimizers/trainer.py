@@ -18,7 +18,7 @@ import optax
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 
-from acausal.training.optimizers.descent import Descent
+from acausal._jax import Descent
 from acausal.training.optimizers.gradients import (
     Evaluate,
     LossDerivatives,

@@ -18,11 +18,10 @@ class Descent(eqx.Module):
     """State of a descent.
 
     Attributes:
-        point, value, gradient: the best point up to now, its loss (infinite before the first update) and gradient.
+        point, value: the best point up to now, and its loss (infinite before the first update).
         converged: whether no lower loss can be found.
     """
 
     point: Float[Array, " n"]
     value: Float[Array, ""]
-    gradient: Float[Array, " n"]
     converged: Bool[Array, ""]

@@ -1,0 +1,291 @@
+"""Moving-horizon estimation: at every row the most likely way through a window of rows, given what was known before it.
+
+With a belief (m, P) before the window, noise of steps Q and of sensors R, the way minimizes
+
+    ½ ‖z₀ - m‖² by P⁻¹ + ½ Σ ‖zᵢ₊₁ - f(zᵢ)‖² by Q⁻¹ + ½ Σ ‖yᵢ - h(zᵢ)‖² by R⁻¹.
+
+Along the tangent of the model at such a way this is a linear problem, which the Kalman filter and its smoother solve: a
+step of Gauss and Newton is one pass of both (B. Bell: The iterated Kalman smoother as a Gauss-Newton method, SIAM J.
+Optimization 4, 1994). Damping it divides P and Q by 1 + λ and moves their means towards the way (S. Särkkä,
+L. Svensson: Levenberg-Marquardt and line-search extended Kalman smoothers, ICASSP 2020). The arrival cost is the
+filter's belief (C. Rao, J. Rawlings, D. Mayne: Constrained state estimation for nonlinear discrete-time systems, IEEE
+TAC 48, 2003), linearized at the way that the window has found, without its bounds. For a linear model all of it is the
+Kalman filter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float
+
+from acausal._jax import Damped, after_trial, as_key, before_trials, value_and_jacobian
+from acausal.analysis.filtering import (
+    Belief,
+    Filtered,
+    Function,
+    Linearized,
+    Measured,
+    Path,
+    by_derivatives,
+    inverse,
+    run,
+    smoothed,
+)
+
+TRIALS = 20
+"""Steps for the way of a window, at most."""
+
+SOFT = 1e-3
+"""How far a bound may be exceeded, about: in standard deviations at the start."""
+
+
+class Bounds(NamedTuple):
+    """What the numbers of an estimate lie within, infinite where nothing is known; a bound is a steep hinge."""
+
+    low: Float[Array, " m"]
+    high: Float[Array, " m"]
+    sigma: Float[Array, " m"]
+
+    def excess(self, z: Float[Array, " m"]) -> Float[Array, " m"]:
+        """By how much they lie outside."""
+        return jnp.maximum(z - self.high, 0.0) - jnp.maximum(self.low - z, 0.0)
+
+
+class MovingHorizon(NamedTuple):
+    """How to estimate by a moving horizon.
+
+    Attributes:
+        window: its rows, at least two.
+        bounds: of the numbers to estimate, if there are some.
+    """
+
+    window: int
+    bounds: Bounds | None = None
+
+    def run(
+        self, path: Path, start: Belief, measured: Measured, sigma: Float[Array, "n-1 m"]
+    ) -> Filtered:
+        """Estimate n rows, each by all measurements of the window that ends there; arguments as of `filtering.run`.
+
+        Innovations and likelihood are those of forecasts, before the row's own measurement was used.
+        """
+        count, m = min(self.window, len(measured.y)), len(start.mean)
+
+        def at(carry: tuple[Belief, Array], row: Array) -> tuple[tuple[Belief, Array], Filtered]:
+            arrival, noise = carry
+            first = jnp.maximum(row - count + 1, 0)
+            here, before = row - first, jnp.maximum(row - first - 1, 0)
+            window = _window(measured, sigma, arrival, self.bounds, first, row, count)
+
+            def along(noise: Float[Array, "W m"]) -> _Tangent:
+                return _Tangent.along(path, first, window, noise)
+
+            begun = along(noise)
+            expected = begun.filtered()
+            found, converged = _most_likely(along, begun)
+            after = found.filtered()
+            exact = converged & (self.bounds is None)
+            estimate = Filtered(
+                jnp.where(exact, after.mean[here], found.z[here]),
+                after.covariance[here],
+                jax.tree.map(lambda a: a[here], expected.innovation),
+                jax.tree.map(lambda a: a[before], expected.forecast),
+                expected.shared[before],
+            )
+            later = jax.tree.map(lambda a: a[0], after.forecast)
+            moved = jnp.concatenate(
+                [(found.z[1] - later.mean)[None], found.noise[2:], jnp.zeros((1, m))]
+            )
+            full = here == count - 1
+            return jax.tree.map(
+                lambda new, old: jnp.where(full, new, old), (later, moved), (arrival, found.noise)
+            ), estimate
+
+        begin = Belief(start.mean, start.covariance), jnp.zeros((count, m))
+        _, found = jax.lax.scan(at, begin, jnp.arange(len(measured.y)))
+        ahead = jax.tree.map(lambda a: a[1:], found.forecast)
+        return found._replace(forecast=ahead, shared=found.shared[1:])
+
+
+class _Window(NamedTuple):
+    """What is known of W rows.
+
+    Attributes:
+        arrival: the belief before the first row's measurement. measured: of all rows. sigma: noise of the steps.
+    """
+
+    arrival: Belief
+    measured: Measured
+    sigma: Float[Array, "W-1 m"]
+    bounds: Bounds | None
+
+
+def _window(
+    measured: Measured,
+    sigma: Float[Array, "n-1 m"],
+    arrival: Belief,
+    bounds: Bounds | None,
+    first: Array,
+    last: Array,
+    count: int,
+) -> _Window:
+    """The rows from the first on; those after the last are not measured yet."""
+
+    def part(a: Array, size: int) -> Array:
+        return jax.lax.dynamic_slice_in_dim(a, first, size)
+
+    known = part(measured.known, count) & (first + jnp.arange(count) <= last)[:, None]
+    own = Measured(part(measured.y, count), known, measured.sigma)
+    return _Window(arrival, own, part(sigma, count - 1), bounds)
+
+
+class _Line(eqx.Module):
+    """Linear functions along rows, a `Path`: steps and what is observed, by values at points and slopes."""
+
+    z: Float[Array, "W m"]
+    ahead: Float[Array, "W-1 m"]
+    slope: Float[Array, "W-1 m m"]
+    y: Float[Array, "W p"]
+    read: Float[Array, "W p m"]
+
+    def step(self, row: Array) -> Function:
+        """From a row to the next one."""
+        return lambda z: self.ahead[row] + self.slope[row] @ (z - self.z[row])
+
+    def observe(self, row: Array) -> Function:
+        """What is measured at a row."""
+        return lambda z: self.y[row] + self.read[row] @ (z - self.z[row])
+
+
+class _Tangent(eqx.Module):
+    """The model of a window, linear at a way through it: a `LocalModel` of its cost.
+
+    Attributes:
+        noise: of the way, which follows from it: first the difference from the arrival's mean, then from forecasts.
+        line: the linear model.
+    """
+
+    window: _Window
+    noise: Float[Array, "W m"]
+    line: _Line
+
+    @classmethod
+    def along(
+        cls, path: Path, first: Array, window: _Window, noise: Float[Array, "W m"]
+    ) -> _Tangent:
+        """The model along the way with this noise, which begins at a row of the path."""
+        rows = first + jnp.arange(len(noise))
+
+        def advance(z: Float[Array, " m"], row: tuple[Array, Array]) -> tuple[Array, Any]:
+            index, own = row
+            ahead, slope = value_and_jacobian(path.step(index), z, axis=-1)
+            return ahead + own, (z, ahead, slope)
+
+        begin = window.arrival.mean + noise[0]
+        last, (z, ahead, slope) = jax.lax.scan(advance, begin, (rows[:-1], noise[1:]))
+        z = jnp.concatenate([z, last[None]])
+        y, read = jax.vmap(lambda r, z: value_and_jacobian(path.observe(r), z, axis=-1))(rows, z)
+        return cls(window, noise, _Line(z, ahead, slope, y, read))
+
+    @property
+    def z(self) -> Float[Array, "W m"]:
+        """The way."""
+        return self.line.z
+
+    def filtered(self) -> Filtered:
+        """The filter's way along the line, without bounds."""
+        window = self.window
+        return run(EKF, self.line, window.arrival, window.measured, window.sigma, as_key(0))
+
+    def cost(self) -> Float[Array, ""]:
+        """What the way minimizes."""
+        line, bounds = self.line, self.window.bounds
+        excess = None if bounds is None else bounds.excess(line.z)
+        return self._cost(self.noise, line.y, excess)
+
+    @property
+    def scale(self) -> Float[Array, ""]:
+        """As of `LocalModel`: noise is measured by its own deviation."""
+        return jnp.ones(())
+
+    def trial(self, damping: Float[Array, ""]) -> tuple[Float[Array, " n"], Float[Array, ""]]:
+        """As of `LocalModel`; the step is one of the noise."""
+        window, line, bounds = self.window, self.line, self.window.bounds
+        part, arrival, measured = damping / (1 + damping), window.arrival, window.measured
+        excess = None
+        nearer = eqx.tree_at(lambda a: a.ahead, line, line.ahead + part * self.noise[1:])
+        if bounds is not None:
+            excess = bounds.excess(line.z)
+            beyond = excess != 0
+            tied = jax.vmap(jnp.diag)(beyond.astype(float))
+            nearer = eqx.tree_at(
+                lambda a: (a.y, a.read),
+                nearer,
+                (
+                    jnp.concatenate([line.y, excess], axis=1),
+                    jnp.concatenate([line.read, tied], axis=1),
+                ),
+            )
+            measured = Measured(
+                jnp.concatenate([measured.y, jnp.zeros_like(excess)], axis=1),
+                jnp.concatenate([measured.known, beyond], axis=1),
+                jnp.concatenate([measured.sigma, bounds.sigma]),
+            )
+        prior = Belief(arrival.mean + part * self.noise[0], arrival.covariance / (1 + damping))
+        sigma = window.sigma / jnp.sqrt(1 + damping)
+        z, _ = smoothed(run(EKF, nearer, prior, measured, sigma, as_key(0)))
+        off = z - line.z
+        first = jnp.where(jnp.diag(arrival.covariance) > 0, z[0] - arrival.mean, 0.0)
+        rest = z[1:] - line.ahead - jnp.einsum("wij,wj->wi", line.slope, off[:-1])
+        noise = jnp.concatenate([first[None], jnp.where(window.sigma > 0, rest, 0.0)])
+        y = line.y + jnp.einsum("wpi,wi->wp", line.read, off)
+        if excess is not None:
+            excess = excess + jnp.where(excess != 0, off, 0.0)
+        return (noise - self.noise).ravel(), self.cost() - self._cost(noise, y, excess)
+
+    def _cost(
+        self,
+        noise: Float[Array, "W m"],
+        y: Float[Array, "W p"],
+        excess: Float[Array, "W m"] | None,
+    ) -> Float[Array, ""]:
+        window, measured = self.window, self.window.measured
+        cost = noise[0] @ inverse(window.arrival.covariance) @ noise[0]
+        cost += jnp.sum(_relative(noise[1:], window.sigma) ** 2)
+        cost += jnp.sum(jnp.where(measured.known, (measured.y - y) / measured.sigma, 0.0) ** 2)
+        if excess is not None and window.bounds is not None:
+            cost += jnp.sum(_relative(excess, window.bounds.sigma) ** 2)
+        return cost / 2
+
+
+EKF = Linearized(by_derivatives)
+
+
+def _most_likely(
+    along: Callable[[Float[Array, "W m"]], _Tangent], begin: _Tangent
+) -> tuple[_Tangent, Bool[Array, ""]]:
+    """The most likely way of a window, and whether its steps have converged."""
+
+    def goes_on(carry: tuple[Damped, Array]) -> Bool[Array, ""]:
+        state, count = carry
+        return ~state.converged & (count < TRIALS)
+
+    def trial(carry: tuple[Damped, Array]) -> tuple[Damped, Array]:
+        state, count = carry
+        point = state.point + state.step
+        tangent = along(point.reshape(begin.noise.shape))
+        return after_trial(state, point, tangent.cost(), tangent), count + 1
+
+    start = before_trials(begin.noise.ravel(), begin, damping=0.0)
+    first = after_trial(start, start.point, begin.cost(), begin)
+    state, _ = jax.lax.while_loop(goes_on, trial, (first, jnp.zeros((), int)))
+    return state.model, state.converged
+
+
+def _relative(a: Float[Array, " ..."], sigma: Float[Array, " ..."]) -> Float[Array, " ..."]:
+    return jnp.where(sigma > 0, a / jnp.where(sigma > 0, sigma, 1.0), 0.0)

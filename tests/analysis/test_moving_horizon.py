@@ -1,0 +1,74 @@
+"""Moving-horizon estimation against the Kalman filter, a solver of bounded least squares, and the truth."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.optimize import lsq_linear
+
+import acausal as ac
+from tests.analysis.test_estimate import GIVEN, N, Pendulum, by_hand, record
+from tests.support.oscillator import plain
+
+
+@pytest.mark.cases(fast=1, slow=2)
+@pytest.mark.parametrize("window", [N, 2])
+def test_of_a_linear_model_any_window_gives_the_kalman_filter_and_smoother(window):
+    data = record()
+    found = ac.estimate(plain(), data, "mhe", window=window, **GIVEN)
+    m, P, likelihood, late, spread = by_hand(data)
+    np.testing.assert_allclose(found.x, m, atol=1e-8)
+    np.testing.assert_allclose(found.covariance, P, atol=1e-8)
+    assert float(found.log_likelihood) == pytest.approx(float(likelihood), abs=1e-6)
+    later = found.smooth()
+    np.testing.assert_allclose(later.x, late, atol=1e-8)
+    np.testing.assert_allclose(later.covariance, spread, atol=1e-8)
+
+
+@pytest.mark.slow
+def test_a_pendulum_is_found_from_a_wrong_start_sooner_than_by_a_filter():
+    """The angle, of which the sine is measured, begins on the other side of where the sine bends."""
+    system = ac.compile(Pendulum(), check_units=False)
+    truth = ac.simulate(system, 6, dt=0.02, x0={"phi": 2.5, "w": -1.0})
+    rng = np.random.default_rng(0)
+    data = ac.Data(truth.t, {"x": truth["x"] + 0.02 * rng.standard_normal(len(truth.t))})
+    off = {}
+    for method in ("ekf", "mhe"):
+        found = ac.estimate(
+            system, data, method, states={"phi": 2.0, "w": 3.0}, x0={"phi": 0.5},
+            noise={"w": 0.01}, sensors={"x": 0.02}, window=50,
+        )  # fmt: skip
+        off[method] = np.sqrt(np.mean(np.asarray(found["phi"] - truth["phi"])[100:] ** 2))
+    assert off["mhe"] < 0.01 < 0.3 < off["ekf"]
+
+
+class Tank(ac.Component):
+    """A level that falls in proportion to itself; it is never negative."""
+
+    h = ac.Variable(unit="m", start=1.0)
+    rate = ac.Parameter(1.0, unit="1/s")
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.h), -self.rate * self.h)
+
+
+def test_bounds_are_those_of_least_squares():
+    t, q, r, first = 0.1 * np.arange(40), 0.1, 0.3, 0.5
+    rng = np.random.default_rng(3)
+    y = 0.2 * np.exp(-t) + r * rng.standard_normal(40)
+    given = {
+        "sensors": {"h": r}, "noise": {"h": q}, "states": {"h": first}, "x0": {"h": 0.2}, "dt": 0.02,
+    }  # fmt: skip
+    system, data = ac.compile(Tank()), ac.Data(t, {"h": y})
+    found = ac.estimate(system, data, "mhe", window=40, bounds={"h": (0.0, None)}, **given)
+    free = ac.estimate(system, data, "mhe", window=40, **given)
+    assert np.min(free["h"]) < -0.02
+    assert np.min(found["h"]) > -0.01 * first
+    steps = np.eye(40) - np.exp(-0.1) * np.eye(40, k=-1)
+    sigma = np.array([first, *[q * np.sqrt(0.1)] * 39])
+    for last in (20, 30, 39):
+        n = last + 1
+        rows = np.concatenate([(steps / sigma[:, None])[:n, :n], np.eye(n) / r])
+        wanted = np.concatenate([[0.2 / first], np.zeros(last), y[:n] / r])
+        best = lsq_linear(rows, wanted, (0.0, np.inf), method="bvls").x[-1]
+        assert float(found["h"][last]) == pytest.approx(best, abs=1e-3 * first)
