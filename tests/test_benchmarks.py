@@ -17,6 +17,7 @@ import acausal as ac
 from benchmarks import (
     chain,
     export,
+    fleet,
     gears,
     grid,
     ladder,
@@ -185,3 +186,25 @@ def test_peers_agree(name):
     assert ours.simulate() == pytest.approx(byhand.simulate(), abs=1e-8)
     np.testing.assert_allclose(ours.gradient(), byhand.gradient(), atol=1e-8)
     assert peers.measured("diffrax", task).keys() == {"first", "position", "again", "gradient"}
+
+
+@pytest.mark.slow
+def test_a_fleet_is_trained_and_swept_by_workers():
+    run = subprocess.run(
+        [sys.executable, "-m", "benchmarks.fleet", "--n", "4", "8", "--variants", "16"],
+        cwd=Path(__file__).parents[1],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    found = json.loads(run.stdout.splitlines()[-1])
+    assert set(found["records"]) == {"4", "8"}
+    assert found["speedup"] == found["one_core"]["seconds"] / found["all_cores"]["seconds"]
+    assert found["one_core"]["workers"] > 0
+
+
+def test_the_growth_of_a_figure_is_its_power():
+    found = {10: {"a": 2.0, "b": 5.0}, 100: {"a": 20.0, "b": 5.0}}
+    assert fleet.growth(found, "a") == pytest.approx(1)
+    assert fleet.growth(found, "b") == pytest.approx(0)
+    assert fleet.growth({10: found[10]}, "a") is None

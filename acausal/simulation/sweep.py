@@ -5,8 +5,9 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from math import prod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -24,6 +25,7 @@ from acausal.errors import (
     shown,
     user_level,
 )
+from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
@@ -189,6 +191,7 @@ def sweep(
     inputs: Any = None,
     params: Mapping[str, Any] | None = None,
     x0: Any = None,
+    executor: Workers | None = None,
     **options: Any,
 ) -> Sweep:
     """Simulate many variants of a model at once, in one compiled program.
@@ -203,6 +206,8 @@ def sweep(
         grid: whether every value meets every other, with an axis for each name. Otherwise they vary together, and all
             have the same length.
         inputs, params, x0: what all variants have in common, as of `simulate`.
+        executor: whose workers simulate the variants, some dozens of blocks of them: any
+            `concurrent.futures.Executor`, or a function that makes one. By default this process does.
         options: the other arguments of `simulate`, such as ``dt`` and ``solver``.
 
     Returns:
@@ -210,7 +215,8 @@ def sweep(
 
     Raises:
         ModelError: for a model that is not compiled.
-        DataError: for an unknown name, values that are no numbers or outside of a parameter's range, and as `simulate`.
+        DataError: for an unknown name, values that are no numbers or outside of a parameter's range, and as `simulate`;
+            for what cannot be sent to workers, and for workers that are lost again and again.
 
     Warns:
         UserWarning: if variants did not reach the end; their values are not finite.
@@ -230,16 +236,54 @@ def sweep(
     if "params" in roles.values() and params is None:
         common["params"] = system.parameters()
 
-    def one(varied: dict[str, Array]) -> Solution:
-        given = dict(common)
-        for role in dict.fromkeys(roles.values()):
-            own = {name: value for name, value in varied.items() if roles[name] == role}
-            given[role] = {**(common[role] or {}), **own}
-        return simulate(system, t, **given, **options)
-
-    runs = jax.vmap(one)({name: jnp.asarray(column) for name, column in columns.items()})
+    shared = _Shared(system, t, roles, common, options)
+    runs = _runs(shared, columns) if executor is None else _on_workers(executor, shared, columns)
     _warn_of_broken(runs, columns)
     return Sweep(runs, values, grid)
+
+
+class _Shared(NamedTuple):
+    """What all variants share: `simulate`'s arguments, and by name which of these takes what is varied."""
+
+    system: System
+    t: float | tuple[float, float]
+    roles: Mapping[str, str]
+    common: Mapping[str, Any]
+    options: Mapping[str, Any]
+
+
+def _runs(shared: _Shared, columns: Mapping[str, Float[np.ndarray, " n_variants"]]) -> Solution:
+    """The variants, in one compiled program."""
+
+    def one(varied: dict[str, Array]) -> Solution:
+        given = dict(shared.common)
+        for role in dict.fromkeys(shared.roles.values()):
+            own = {name: value for name, value in varied.items() if shared.roles[name] == role}
+            given[role] = {**(shared.common[role] or {}), **own}
+        return simulate(shared.system, shared.t, **given, **shared.options)
+
+    return jax.vmap(one)({name: jnp.asarray(column) for name, column in columns.items()})
+
+
+def _leaves(
+    shared: _Shared, columns: Mapping[str, Float[np.ndarray, " n_variants"]]
+) -> list[np.ndarray]:
+    """The arrays of `_runs`: a worker need not send the model back."""
+    return list(map(np.asarray, jax.tree.leaves(_runs(shared, columns))))
+
+
+def _on_workers(
+    executor: Workers, shared: _Shared, columns: Mapping[str, Float[np.ndarray, " n_variants"]]
+) -> Solution:
+    """The variants in blocks of one length, so that a worker compiles once; the last one is filled up."""
+    need_workers(executor, "sweep")
+    total = len(next(iter(columns.values())))
+    every = blocks(total)
+    rows = [np.minimum(np.arange(len(every[0])) + block.start, total - 1) for block in every]
+    tasks = [{name: column[own] for name, column in columns.items()} for own in rows]
+    kind = jax.tree.structure(jax.eval_shape(partial(_runs, shared), tasks[0]))
+    parts = zip(*on_workers(executor, _leaves, shared, tasks, "sweep"), strict=True)
+    return jax.tree.unflatten(kind, [jnp.asarray(np.concatenate(part)[:total]) for part in parts])
 
 
 def _role(system: System, name: str) -> str:

@@ -16,13 +16,16 @@ from acausal.files import need_path
 from acausal.pages import write_page
 from acausal.reporting import PageContent, table
 from acausal.training.ensemble import Ensemble
-from acausal.training.objective.folds import Folds, LeftOut, judged_on, left_out, without
+from acausal.training.member import Trained
+from acausal.training.objective.folds import Folds, LeftOut, judged_on, left_out
 from acausal.training.options import FitKeywords, FitOptions, documented
+from acausal.training.preparation import Training, prepare
 from acausal.training.presentation.page_of_several import several_content
 from acausal.training.presentation.page_records import record_blocks
 from acausal.training.record_fit import RecordFit, rms_of
 from acausal.training.result import Fit
-from acausal.training.train_from_starts import Training, prepare, run
+from acausal.training.train import train_on_workers
+from acausal.training.train_from_starts import run
 from acausal.training.trained_model import out_of_range
 
 if TYPE_CHECKING:
@@ -271,9 +274,13 @@ def cross_validate(
         if getattr(fit_options, name) is not None:
             raise TrainingError(f"cross_validate has no {name}=: {reason}; leave it out.")
     training = prepare(system, data, targets, fit_options, seeds=(seed,), params=(params,))
+    parts = left_out(training.problem.records, folds)
+    trained: Sequence[tuple[Trained, ...] | None] = [None] * len(parts)
+    if fit_options.executor is not None:
+        trained = train_on_workers(training, parts)
     found: list[Fold] = []
-    for part in left_out(training.problem.records, folds):
-        fold = _fold(training, part)
+    for part, one in zip(parts, trained, strict=True):
+        fold = _fold(training, part, one)
         if fold.fit.interrupted:
             break
         found.append(fold)
@@ -282,12 +289,10 @@ def cross_validate(
     return CrossValidation(tuple(found))
 
 
-def _fold(training: Training, part: LeftOut) -> Fold:
-    """One fold; its program is that of the others, because its trainers are."""
-    own = without(training.problem, part)
+def _fold(training: Training, part: LeftOut, trained: tuple[Trained, ...] | None) -> Fold:
+    """One fold, as workers have trained it, or trained here."""
     judged = judged_on(training.problem, part, training.records, training.options.x0)
-    plan = tuple(segment.over(own) for segment in training.segments)
-    (fit,) = run(replace(training, problem=own, segments=plan), judged, f"Without '{part.name}': ")
+    (fit,) = run(training.without(part), judged, f"Without '{part.name}': ", trained)
     fit = replace(fit, records=_counting(fit.records), held_out=_counting(fit.held_out))
     loss = float(judged.loss(fit.trained))
     return Fold(part.name, fit, loss if np.isfinite(loss) else np.inf)

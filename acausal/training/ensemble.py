@@ -20,9 +20,10 @@ from acausal.pages import write_page
 from acausal.reporting import PageContent, table
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.options import FitKeywords, FitOptions, documented
+from acausal.training.preparation import prepare
 from acausal.training.presentation.page_of_several import prediction_blocks, several_content
 from acausal.training.result import Fit
-from acausal.training.train_from_starts import prepare, run
+from acausal.training.train_from_starts import run
 from acausal.training.uncertainty.bumps import SIGMAS
 from acausal.training.uncertainty.confidence import BAND_POINTS, Band
 from acausal.training.uncertainty.conformal import predicted
@@ -158,7 +159,7 @@ def ensemble(
     seed: int = 0,
     **options: Unpack[FitKeywords],
 ) -> Ensemble:
-    """Train several times from different seeds, in one compiled program.
+    """Train several times from different seeds, in one compiled program or each on a worker (``executor``).
 
     Arguments:
         system, data, targets: as of `acausal.fit`.

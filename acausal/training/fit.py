@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, Unpack
 from acausal.data import RecordsLike
 from acausal.errors import need_compiled
 from acausal.training.options import FitKeywords, FitOptions, documented
+from acausal.training.preparation import prepare
 from acausal.training.result import Fit
-from acausal.training.train_from_starts import prepare, run
+from acausal.training.train_from_starts import run
 
 if TYPE_CHECKING:
     from acausal.system import System

@@ -20,6 +20,7 @@ from jax.typing import DTypeLike
 from acausal._jax import is_number, traced
 from acausal.errors import TrainingError, nearest, need_flag, need_whole, shown
 from acausal.files import need_path
+from acausal.jobs import Workers, need_workers
 from acausal.simulation import Solver
 from acausal.training.objective.error_laws import ErrorLaw
 from acausal.training.objective.held_out import Validation
@@ -163,6 +164,7 @@ class FitKeywords(TypedDict, total=False):
     checkpoint: str | Path | None
     checkpoint_every: float
     resume: bool
+    executor: Workers | None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -253,6 +255,11 @@ class FitOptions:
         checkpoint_every: seconds between two writings.
         resume: whether to go on from the checkpoint if there is one; all other arguments must be as they were. The
             training ends where it would have ended without the break, bit for bit on the same machine.
+        executor: whose workers train the members, folds or starts, each alone to its own end: any
+            `concurrent.futures.Executor`, or a function that makes one; by default this process trains all of them in
+            one program. Of several starts, all go on to the end then. Each has a checkpoint of its own, from which it
+            goes on if its worker is lost: ``checkpoint="run.safetensors"`` gives ``run-0.safetensors`` and so on, in a
+            folder that all workers share. After Ctrl-C, nothing is returned.
     """
 
     train: Iterable[str] | None = None
@@ -289,6 +296,7 @@ class FitOptions:
     checkpoint: str | Path | None = None
     checkpoint_every: float = 60.0
     resume: bool = False
+    executor: Workers | None = None
 
     @staticmethod
     def of(function: str, given: Mapping[str, Any]) -> FitOptions:
@@ -319,6 +327,13 @@ class FitOptions:
             left_out = value is None and FitOptions.__dataclass_fields__[name].default is None
             if not (left_out or fits(value)):
                 raise TrainingError(f"{name}={shown(value)} is not {wanted}.")
+        if self.executor is not None:
+            need_workers(self.executor, "training", TrainingError)
+            for name in ("devices", "observers"):
+                if getattr(self, name):
+                    raise TrainingError(
+                        f"{name}= needs a training in this process, but executor= trains on workers: leave out one."
+                    )
         if self.checkpoint is not None:
             need_path(self.checkpoint, "checkpoint", TrainingError)
         for name in FLAGS:
@@ -402,7 +417,7 @@ class FitOptions:
 
 _NOT_DESCRIBED = (
     "train", "modifiers", "strategy", "epochs", "optimizer", "devices", "progress", "observers", "checkpoint",
-    "checkpoint_every", "resume",
+    "checkpoint_every", "resume", "executor",
 )  # fmt: skip
 """Options that change nothing of the result, or that are told otherwise."""
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
-from typing import Any, cast
+from dataclasses import fields, replace
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -15,8 +15,9 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import is_number, levenberg_marquardt, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, listing, nearest, shown
+from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.training.objective.held_out import over
-from acausal.training.objective.initial_state import InitialState, check_records
+from acausal.training.objective.initial_state import InitialState, by_record, check_records
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.start_prior import StartPrior, start_prior
 from acausal.training.objective.start_sizes import found_starts, with_sizes
@@ -24,7 +25,7 @@ from acausal.training.objective.trainable import Trainable
 from acausal.training.prediction import Prediction, Predictions
 from acausal.training.record_fit import RecordFit, of_records
 from acausal.training.trained_model import TrainedModel, out_of_range
-from acausal.training.uncertainty.bumps import bumped_law, with_changes
+from acausal.training.uncertainty.bumps import Bumped, bumped_law, with_changes
 from acausal.training.uncertainty.confidence import Band, Confidence
 from acausal.training.uncertainty.conformal import Conformal
 
@@ -35,8 +36,7 @@ OwnParameters = Mapping[str, float] | Mapping[str, Mapping[str, float]]
 """Values of parameters that differ between records, by name: the same for all records, or by record."""
 
 
-@dataclass(frozen=True, eq=False)
-class Own:
+class Own(eqx.Module):
     """What R records have for themselves: m numbers, parameters first, then the moves of their initial states.
 
     Attributes:
@@ -49,9 +49,9 @@ class Own:
 
     problem: Problem
     trainable: Trainable
-    values: Float[np.ndarray, "R m"]
-    free: Bool[np.ndarray, "R m"]
-    information: Float[np.ndarray, "R m"]
+    values: Float[Array, "R m"]
+    free: Bool[Array, "R m"]
+    information: Float[Array, "R m"]
 
     def moved(self, values: Float[Array | np.ndarray, "R m"]) -> Trainable:
         """The training's result with other values of these numbers."""
@@ -61,17 +61,63 @@ class Own:
         return replace(self.trainable, per_record=own, starts=starts)
 
 
+class _Some(NamedTuple):
+    """Some records, with what was given for them."""
+
+    records: Mapping[str, Data]
+    x0: InitialState
+    params: Mapping[str, Mapping[str, float]]
+
+
 def predict(
     fit: TrainedModel,
     data: RecordsLike,
     x0: InitialState,
     params: OwnParameters | None,
     conformal: Conformal | None,
+    executor: Workers | None = None,
 ) -> Predictions:
     """Predict records; arguments and errors as those of `Fit.predict`."""
-    system, targets = fit.system, fit.problem.targets
-    records = {n: d.for_system(system) for n, d in records_of(data).items()}
+    records = {n: d.for_system(fit.system) for n, d in records_of(data).items()}
     check_records(x0, records)
+    own = _own_given(params, records)
+    if executor is None:
+        return Predictions(_predicted((fit, conformal), _Some(records, x0, own)), fit.system)
+    need_workers(executor, "predict")
+    fit.confidence()  # workers receive it
+    starts = dict(zip(records, by_record(records, x0), strict=True))
+
+    def some(block: range) -> _Some:
+        names = list(records)[block.start : block.stop]
+        given = {n: own[n] for n in names if n in own}
+        return _Some({n: records[n] for n in names}, {n: starts[n] for n in names}, given)
+
+    tasks = [some(block) for block in blocks(len(records))]
+    parts = on_workers(executor, _predicted, (fit, conformal), tasks, "predict")
+    return Predictions({n: one for part in parts for n, one in part.items()}, fit.system)
+
+
+def _own_given(
+    params: OwnParameters | None, records: Mapping[str, Data]
+) -> dict[str, Mapping[str, float]]:
+    """What a user gives for each record.
+
+    Raises:
+        DataError: for a name that is no record.
+    """
+    given: Mapping[str, Any] = params or {}
+    if not any(isinstance(v, Mapping) for v in given.values()):
+        return dict.fromkeys(records, given)
+    for record in given:
+        if record not in records:
+            raise DataError(f"params: there is no record '{record}': {nearest(record, records)}")
+    return dict(given)
+
+
+def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> dict[str, Prediction]:
+    """Predictions of some records in one program; they do not know of each other."""
+    (fit, conformal), (records, x0, params) = shared, some
+    system, targets = fit.system, fit.problem.targets
     own = _own(fit, records, x0, params)
     problem, confidence = own.problem, fit.confidence()
     least = np.array([confidence.noise[n] * np.sqrt(confidence.alike[n]) for n in targets])
@@ -100,14 +146,18 @@ def predict(
             units=units,
         )
 
-    return Predictions({n: one(k, r) for k, (n, r) in enumerate(made.items())}, system)
+    named = zip(records, made.values(), strict=True)
+    return {n: one(k, replace(r, name=n)) for k, (n, r) in enumerate(named)}
 
 
 def _own(
-    fit: TrainedModel, records: Mapping[str, Data], x0: InitialState, params: OwnParameters | None
+    fit: TrainedModel,
+    records: Mapping[str, Data],
+    x0: InitialState,
+    params: Mapping[str, Mapping[str, float]],
 ) -> Own:
     """What the records have for themselves, before their targets have told of it."""
-    problem = over(fit.problem, records, x0, measured=False)
+    problem = _nameless(over(_records_alike(fit.problem), records, x0, measured=False))
     trainable = problem.over_other_records(fit.trained)
     laid, names = problem.records, problem.per_record.names
     measured = np.isfinite(laid.measured)
@@ -127,27 +177,35 @@ def _own(
     loose = np.where(has[:, None], 0.0, np.asarray(spread) ** -2.0)
     information = np.concatenate([np.where(tied, 1.0, loose), np.ones_like(moves)], 1)
     information[:, : len(names)][given] = np.inf
-    return Own(problem, trainable, np.concatenate([own, moves], 1), free, information)
+    values = np.concatenate([own, moves], 1)
+    return Own(problem, trainable, *map(jnp.asarray, (values, free, information)))
+
+
+def _records_alike(problem: Problem) -> Problem:
+    """The problem in which no record counts for more because of others, which are not predicted along with it."""
+    return replace(problem, weighting=replace(problem.weighting, records="samples"))
+
+
+def _nameless(problem: Problem) -> Problem:
+    """The problem with numbers for names, which compiled programs know: they serve other records of that length."""
+    numbers = tuple(map(str, range(problem.records.count)))
+    return replace(problem, records=replace(problem.records, names=numbers))
 
 
 def _given(
     fit: TrainedModel,
     own: Float[np.ndarray, "R n_own"],
     records: Mapping[str, Data],
-    params: OwnParameters | None,
+    params: Mapping[str, Mapping[str, float]],
 ) -> tuple[Float[np.ndarray, "R n_own"], Bool[np.ndarray, "R n_own"]]:
     """Parameters of records with those that a user gives, and which these are.
 
     Raises:
-        DataError: for a name that is neither a record nor such a parameter, or what is not a number.
+        DataError: for a name that is no such parameter, or what is not a number.
     """
     known, given = fit.problem.per_record, np.zeros(own.shape, bool)
     common = fit.problem.assemble(fit.trained)
-    by_record = any(isinstance(v, Mapping) for v in (params or {}).values())
-    chosen = params if by_record else dict.fromkeys(records, params or {})
-    for record, values in cast("Mapping[str, Mapping[str, float]]", chosen or {}).items():
-        if record not in records:
-            raise DataError(f"params: there is no record '{record}': {nearest(record, records)}")
+    for record, values in params.items():
         for name, value in values.items():
             if name not in known.names:
                 only = f", but {listing(known.names)}" if known.names else ""
@@ -165,12 +223,29 @@ def _given(
 
 def _found(own: Own, certainty: Float[np.ndarray, "N n_targets"]) -> Float[np.ndarray, "R m"]:
     """The most likely numbers of every record, by damped Gauss-Newton steps of all records side by side."""
-    problem, first, (count, m) = own.problem, jnp.asarray(own.values), own.values.shape
     if not own.free.any():
-        return own.values
-    method, params = levenberg_marquardt(), problem.assemble(own.trainable)
-    free = jnp.asarray(own.free, float)
-    information = jnp.where(free > 0, jnp.asarray(own.information), 1.0)
+        return np.asarray(own.values)
+    params, known = own.problem.assemble(own.trainable), jnp.asarray(certainty)
+    z = own.values
+    state: Any = jax.vmap(levenberg_marquardt().init)(z)
+    for _ in range(UPDATES):
+        z, state = _update(own, params, known, z, state)
+        if bool(state.converged.all()):
+            break
+    return np.asarray(state.point)
+
+
+@eqx.filter_jit
+def _update(
+    own: Own,
+    params: dict[str, Any],
+    certainty: Float[Array, "N n_targets"],
+    z: Float[Array, "R m"],
+    state: Any,
+) -> tuple[Float[Array, "R m"], Any]:
+    problem, method, (count, m) = own.problem, levenberg_marquardt(), own.values.shape
+    free = own.free.astype(z.dtype)
+    information = jnp.where(own.free, own.information, 1.0)
 
     def each(a: Float[Array, "N n_targets ..."]) -> Float[Array, "R ..."]:
         return jax.ops.segment_sum(jnp.sum(a, axis=1), problem.records.of, count)
@@ -182,29 +257,17 @@ def _found(own: Own, certainty: Float[np.ndarray, "N n_targets"]) -> Float[np.nd
         step, state = method.update(gradient, state, z, value=value, hessian=hessian)
         return z + step, state
 
-    @eqx.filter_jit
-    def update(
-        problem: Problem, z: Float[Array, "R m"], state: Any
-    ) -> tuple[Float[Array, "R m"], Any]:
-        def predicted(w: Float[Array, " m"]) -> Float[Array, "N n_targets"]:
-            return problem.predict(own.moved(z + w * free), params)
+    def predicted(w: Float[Array, " m"]) -> Float[Array, "N n_targets"]:
+        return problem.predict(own.moved(z + w * free), params)
 
-        y, jacobian = value_and_jacobian(predicted, jnp.zeros(m), axis=-1)
-        left = problem.residuals(y) * certainty
-        jacobian, off = jacobian * certainty[..., None], z - first
-        value = 0.5 * (each(left**2) + jnp.sum(information * off**2, axis=1))
-        gradient = information * off - each(jacobian * left[..., None])
-        hessian = each(jacobian[..., None] * jacobian[..., None, :])
-        hessian += information[:, :, None] * jnp.eye(m)
-        return jax.vmap(advance)(state, z, gradient, value, hessian)
-
-    z = first
-    state: Any = jax.vmap(method.init)(first)
-    for _ in range(UPDATES):
-        z, state = update(problem, z, state)
-        if bool(state.converged.all()):
-            break
-    return np.asarray(state.point)
+    y, jacobian = value_and_jacobian(predicted, jnp.zeros(m), axis=-1)
+    left = problem.residuals(y) * certainty
+    jacobian, off = jacobian * certainty[..., None], z - own.values
+    value = 0.5 * (each(left**2) + jnp.sum(information * off**2, axis=1))
+    gradient = information * off - each(jacobian * left[..., None])
+    hessian = each(jacobian[..., None] * jacobian[..., None, :])
+    hessian += information[:, :, None] * jnp.eye(m)
+    return jax.vmap(advance)(state, z, gradient, value, hessian)
 
 
 def _deviations(
@@ -219,21 +282,11 @@ def _deviations(
     Laws and parameters have the covariance of the training. Where they were different, what is found for a record
     would be, too; so their effects are less what the record's own numbers take over.
     """
-    problem, prior, m = own.problem, confidence.prior, values.shape[1]
+    problem, prior = own.problem, confidence.prior
     params = problem.assemble(own.trainable)
     bumped = {n: bumped_law(params[n], fit.arguments[n]) for n in problem.networks}
     root = jnp.linalg.inv(prior.root)
-    scale = jnp.where(own.free | np.isfinite(own.information), 1.0, 0.0)
-
-    @eqx.filter_jit
-    def run(problem: Problem) -> tuple[Array, Array]:
-        def predicted(w: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
-            moved = with_changes(problem, params, bumped, root @ w[: len(root)])
-            return problem.predict(own.moved(values + w[len(root) :] * scale), moved)
-
-        return value_and_jacobian(predicted, jnp.zeros(len(root) + m), axis=-1)
-
-    _, jacobian = run(problem)
+    jacobian = _effects(own, params, bumped, root, jnp.asarray(values))
     jacobian, noise = np.asarray(jacobian), [confidence.noise[n] for n in problem.targets]
     variance = np.full(certainty.shape, np.nan)
     for k in range(problem.records.count):
@@ -252,3 +305,21 @@ def _deviations(
             "rti,ij,rtj->rt", alone, covariance, alone
         )
     return np.sqrt(variance + np.square(noise))
+
+
+@eqx.filter_jit
+def _effects(
+    own: Own,
+    params: dict[str, Any],
+    bumped: dict[str, Bumped],
+    root: Float[Array, "n n"],
+    values: Float[Array, "R m"],
+) -> Float[Array, "N n_targets n+m"]:
+    """How the targets move with laws and parameters, by one deviation of each, and with a record's own numbers."""
+    scale = jnp.where(own.free | jnp.isfinite(own.information), 1.0, 0.0)
+
+    def predicted(w: Float[Array, " n+m"]) -> Float[Array, "N n_targets"]:
+        moved = with_changes(own.problem, params, bumped, root @ w[: len(root)])
+        return own.problem.predict(own.moved(values + w[len(root) :] * scale), moved)
+
+    return value_and_jacobian(predicted, jnp.zeros(len(root) + values.shape[1]), axis=-1)[1]

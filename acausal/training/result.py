@@ -13,6 +13,7 @@ import numpy as np
 from acausal.analysis import Distilled, distill
 from acausal.data import RecordsLike
 from acausal.files import need_path
+from acausal.jobs import Workers
 from acausal.networks import remove_offset
 from acausal.pages import write_page
 from acausal.reporting import PageContent, PlainTable
@@ -132,6 +133,7 @@ class Fit(TrainedModel):
         *,
         params: OwnParameters | None = None,
         conformal: Conformal | None = None,
+        executor: Workers | None = None,
     ) -> Predictions:
         """Predict other records, each in one simulation, with bands of two standard deviations.
 
@@ -146,15 +148,18 @@ class Fit(TrainedModel):
             params: values of parameters that differ between records, by name, or by record and name; the others are
                 found.
             conformal: from `conformal`, whose bands are given in the place of those of two standard deviations.
+            executor: whose workers predict the records, in some dozens of blocks: any `concurrent.futures.Executor`, or
+                a function that makes one. By default this process does.
 
         Returns:
             By record a `Prediction`: times, targets, bands, errors, `plot`; of all of them ``errors`` and `report`.
 
         Raises:
-            DataError: if a record lacks an input, or for a name or value that does not fit.
+            DataError: if a record lacks an input, or for a name or value that does not fit; for what cannot be sent to
+                workers, and for workers that are lost again and again.
             TrainingError: if the model diverges over a record of the training.
         """
-        return predict(self, data, x0, params, conformal)
+        return predict(self, data, x0, params, conformal, executor)
 
     def evaluate(
         self,
@@ -163,13 +168,15 @@ class Fit(TrainedModel):
         *,
         params: OwnParameters | None = None,
         conformal: Conformal | None = None,
+        executor: Workers | None = None,
     ) -> DataFrame | PlainTable:
         """The errors of other records in a table, with a row for each; arguments and errors as of `predict`.
 
         Returns:
             A pandas DataFrame; without pandas a `PlainTable`, which prints the same.
         """
-        return self.predict(data, x0, params=params, conformal=conformal).errors
+        found = self.predict(data, x0, params=params, conformal=conformal, executor=executor)
+        return found.errors
 
     def distill(self, network: str, sigmas: float = 2.0, **options: Any) -> Distilled:
         """A short formula for a learned law of one variable, over ``mean ± sigmas · σ`` of its argument in training.

@@ -24,6 +24,7 @@ PAGES = (
     "quarter-vehicle.md",
     "neural.md",
     "drawings.md",
+    "fleet.md",
     *GALLERY,
 )
 

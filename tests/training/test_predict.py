@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from tests.support.counted import compilations
 from tests.support.oscillator import Oscillator, plain, record
 
 QUIET = {"strategy": "gauss_newton", "solver": "rk4", "progress": False}
@@ -46,6 +47,30 @@ def test_a_start_that_is_not_measured_is_found_and_the_band_holds():
     assert given.rms["mass.s"] > 3 * NOISE
     assert given.x0["mass.v"] == 0.0
     assert not given.found
+
+
+@pytest.mark.slow
+def test_what_is_compiled_for_a_record_serves_others_of_its_length():
+    parts = [noisy(clean().between(t, t + 4), k, "mass.s") for k, t in enumerate((8, 12))]
+    trained().predict({"a": parts[0]})
+    with compilations() as compiled:
+        trained().predict({"b": parts[1]})
+    assert not compiled
+
+
+@pytest.mark.slow
+def test_a_record_is_predicted_alone_as_with_others():
+    """Also where all records of the training count alike, however long they are."""
+    data = {k: noisy(clean().between(*k), 0, "mass.s", "mass.v") for k in ((0, 2), (2, 8))}
+    named = {f"{start} s": part for (start, _), part in data.items()}
+    options = {**QUIET, "modifiers": ["mass.m"], "record_weights": "records"}
+    fit = ac.fit(plain(), named, "mass.s", **options)
+    short, long = (noisy(clean().between(10, end), end, "mass.s") for end in (12, 18))
+    alone = fit.predict({"a": short})["a"]
+    beside = fit.predict({"a": short, "b": long})["a"]
+    np.testing.assert_allclose(beside.predicted, alone.predicted, rtol=1e-6, atol=1e-9)
+    sigma = alone.bands["mass.s"].sigma
+    np.testing.assert_allclose(beside.bands["mass.s"].sigma, sigma, rtol=1e-6)
 
 
 @pytest.mark.slow

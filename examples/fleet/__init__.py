@@ -1,0 +1,1 @@
+"""A fleet: vehicles with a mass each and one law of the resistance that they share."""
