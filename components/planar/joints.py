@@ -7,6 +7,7 @@ from acausal.components import icons, thermal
 from acausal.components.choices import STATE_SELECT
 from acausal.components.mechanics import rotational, translational
 
+from . import shapes
 from .conventions import DRAWN, coincident, direction, turned
 from .friction import striple
 from .interfaces import Frame, Offset, PartialTwoFrames
@@ -51,6 +52,9 @@ class Prismatic(Offset):
         else:
             yield ac.Eq(self.f, 0)
 
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.between(self.frame_a, self.frame_b, shapes.SLIDE)
+
 
 class Revolute(PartialTwoFrames):
     """A hinge without friction: ``frame_b`` is turned by ``phi`` [rad] against ``frame_a``.
@@ -85,6 +89,9 @@ class Revolute(PartialTwoFrames):
         else:
             yield ac.Eq(self.t, 0)
 
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.pin(self.frame_a)
+
 
 class PartialRolling(ac.Component):
     """A wheel of radius ``R`` whose hub is ``frame_a``, on the world's x-axis: ``frame_a.y = R``.
@@ -113,6 +120,9 @@ class PartialRolling(ac.Component):
         yield ac.Eq(self.vx, ac.der(self.x))
         yield ac.Eq(self.frame_a.y, self.R)
         yield ac.Eq(self.frame_a.fx * self.R, self.frame_a.t)
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.disc(self.frame_a, self.R)
 
 
 class IdealRolling(PartialRolling):
