@@ -227,6 +227,44 @@ def test_a_dead_point_of_the_state_is_an_error_that_names_the_remedy() -> None:
         ac.simulate(system, (0.0, 3.0), dt=0.01, solver="rk4")
 
 
+class Cut(ac.Component):
+    """A four-bar whose last joint may be cut, and whose crank turns."""
+
+    def __init__(self, last: planar.Revolute) -> None:
+        super().__init__()
+        self.left, self.right = planar.Fixed(), planar.Fixed(r=(1.0, 0.0))
+        self.joint = [planar.Revolute(phi=ac.Start(phi)) for phi in (0.6, 0.0, -2.3)]
+        begin = ac.Start(0.6, fixed=True), ac.Start(14.0, fixed=True)
+        self.joint[0].modify(stateSelect="always", phi=begin[0], w=begin[1])
+        self.last = last
+        self.rod = [planar.FixedTranslation(r=(length, 0.0)) for length in FourBar.LENGTHS]
+        self.body = [planar.Body(m=1.0, I=0.02) for _ in self.rod]
+        end = self.left.frame
+        for joint, rod, body in zip(self.joint, self.rod, self.body, strict=True):
+            self.connect(end, joint.frame_a)
+            self.connect(joint.frame_b, rod.frame_a)
+            self.connect(rod.frame_b, body.frame_a)
+            end = rod.frame_b
+        self.connect(end, self.last.frame_a)
+        self.connect(self.last.frame_b, self.right.frame)
+
+
+@pytest.mark.slow
+def test_a_cut_joint_moves_as_the_closed_loop_does_and_does_not_drift() -> None:
+    start = ac.Start(1.7)  # the assembly
+    closed = ac.compile(Cut(planar.Revolute(phi=start)))
+    cut = ac.compile(Cut(planar.CutRevolute(phi=start)))
+    assert cut.states == tuple(f"joint[{i}].{n}" for i in (1, 2, 3) for n in ("phi", "w"))
+    assert not cut.iterates(("last.phi", "last.frame_a.fx", *(f"body[{i}].z" for i in (1, 2, 3))))
+    at = np.linspace(0.0, 3.0, 61)
+    one, other = (ac.simulate(s, 3.0, saveat=at, **TIGHT) for s in (closed, cut))
+    assert float(one["joint[1].phi"][-1]) > 2 * 2 * np.pi
+    assert np.abs(np.asarray(other[["last.gap[1]", "last.gap[2]"]])).max() < 1e-9
+    for name in ("joint[1].phi", "joint[2].phi", "joint[3].phi", "last.phi"):
+        np.testing.assert_allclose(other[name], one[name], atol=1e-9)
+    np.testing.assert_allclose(other["last.frame_a.fx"], one["last.frame_a.fx"], atol=1e-6)
+
+
 # -- world and files -------------------------------------------------------------------------------
 
 
