@@ -11,9 +11,9 @@ from jaxtyping import Float
 from acausal.codegen import Packed, evaluate, read_parameters
 from acausal.errors import DataError, nearest
 from acausal.modeling import Parameter, Reference, Shape
-from acausal.reporting import Animation, Moving
 
 if TYPE_CHECKING:
+    from acausal.reporting import Animation, Moving
     from acausal.system import System
 
 FRAMES = 900
@@ -48,6 +48,8 @@ def animation(
     Raises:
         DataError: if no component has a shape, or ``trace`` is none that has a way.
     """
+    from acausal.reporting import Animation, Moving
+
     layout = system.flat.layout
     found = [
         (i, path, shape)
