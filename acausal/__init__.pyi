@@ -55,6 +55,7 @@ from .modeling import (
     Parameter as Parameter,
     Potential as Potential,
     Reinit as Reinit,
+    Shape as Shape,
     Start as Start,
     Variable as Variable,
     When as When,

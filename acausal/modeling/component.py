@@ -22,6 +22,7 @@ from acausal.modeling.icon import Icon
 from acausal.modeling.modifiers import record_modifier
 from acausal.modeling.node import Node
 from acausal.modeling.replacing import replace_part
+from acausal.modeling.shape import Shape
 from acausal.modeling.summary import summary
 from acausal.modeling.symbols import Eq
 
@@ -106,6 +107,10 @@ class Component:
 
     def initial_equations(self) -> Iterable[Eq]:
         """Equations that hold at the initial time only."""
+        return ()
+
+    def shapes(self) -> Iterable[Shape]:
+        """What the component looks like in an animation of the mechanism; nothing by default."""
         return ()
 
     # -- for users -------------------------------------------------------------------------------

@@ -11,6 +11,11 @@ from acausal.pages.components import (
     component_cards as component_cards,
     schematic as schematic,
 )
-from acausal.pages.page import page as page, summary as summary, write_page as write_page
+from acausal.pages.page import (
+    motion as motion,
+    page as page,
+    summary as summary,
+    write_page as write_page,
+)
 from acausal.pages.parallel import parallel_law as parallel_law
 from acausal.pages.trajectories import labelled as labelled

@@ -11,7 +11,7 @@ from acausal.modeling import Component
 from acausal.pages.components import MOST_CARDS, Known, component_cards, schematic
 from acausal.pages.trajectories import plots_by_unit
 from acausal.reporting import PageContent, Section, Tab, render
-from acausal.simulation import Solution
+from acausal.simulation import Solution, has_shapes
 from acausal.system import System, compile as compile_model
 
 POINTS = 3000
@@ -86,7 +86,7 @@ def model_content(subject: System | Solution, title: str = "") -> PageContent:
         summary(system),
         schematic(system.model),
         component_cards(system, known),
-        _trajectories(subject) if isinstance(subject, Solution) else (),
+        (*motion(subject), *_trajectories(subject)) if isinstance(subject, Solution) else (),
     )
 
 
@@ -103,6 +103,13 @@ def summary(system: System) -> str:
     some = f" {MOST_CARDS} components are shown: of long lists and within parts the first ones."
     more = some if components > MOST_CARDS else ""
     return sentence + more
+
+
+def motion(solution: Solution) -> tuple[Tab, ...]:
+    """The mechanism in motion, of a model that has shapes."""
+    if not has_shapes(solution.system):
+        return ()
+    return (Tab("Motion", (Section("", (solution.animation(),)),)),)
 
 
 def _trajectories(solution: Solution) -> tuple[Tab, ...]:

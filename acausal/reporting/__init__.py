@@ -7,11 +7,13 @@ with the attributes of a small protocol.
 
 from acausal.reporting.document.builder import Page as Page, write_json as write_json
 from acausal.reporting.document.content import (
+    Animation as Animation,
     Block as Block,
     Card as Card,
     Curve as Curve,
     Drawing as Drawing,
     Equations as Equations,
+    Moving as Moving,
     PageContent as PageContent,
     Plot as Plot,
     Role as Role,
@@ -22,6 +24,7 @@ from acausal.reporting.document.content import (
     table as table,
     titled_sections as titled_sections,
 )
+from acausal.reporting.document.motion import still as still
 from acausal.reporting.document.picture import small_plot as small_plot
 from acausal.reporting.document.render import render as render
 from acausal.reporting.document.thinning import (

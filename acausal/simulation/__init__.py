@@ -20,6 +20,7 @@ from acausal.simulation.inputs import (
     functions_of_time as functions_of_time,
 )
 from acausal.simulation.log import Log as Log
+from acausal.simulation.motion import has_shapes as has_shapes
 from acausal.simulation.sampled_inputs import (
     Samples as Samples,
     polynomials_over_steps as polynomials_over_steps,

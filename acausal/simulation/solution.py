@@ -24,6 +24,7 @@ from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.finite import warn_of_nonfinite
 from acausal.simulation.inputs import TimeFunction, evaluate_all
 from acausal.simulation.log import EventList, Log
+from acausal.simulation.motion import animation, has_shapes
 from acausal.simulation.statistics import Statistics
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
+    from acausal.reporting import Animation
     from acausal.system import System
 
 CURVES_VIEWED = 12
@@ -235,6 +237,22 @@ class Solution(ByName):
         steps = [n for n in curves if self.system.is_discrete(n)]
         return plot_over_time(time, curves, units, axes=axes, steps=steps)
 
+    def animation(self, *, trace: str | None = None, caption: str = "") -> Animation:
+        """The mechanism in motion, a part of a page: ``page.add(solution.animation(trace="coupler"))``.
+
+        Bodies, rods and joints are drawn to scale as the method ``shapes`` of their classes says, and `acausal.page`
+        shows the same.
+
+        Arguments:
+            trace: the component whose way is shown at first; by default the one that moves farthest.
+            caption: what is shown.
+
+        Raises:
+            DataError: if no component has a shape, or ``trace`` is none that has a way.
+        """
+        t = np.asarray(self.t, float)
+        return animation(self.system, self.packed, t, self._columns, trace=trace, caption=caption)
+
     def _with_both_sides(
         self, names: Sequence[str]
     ) -> tuple[Float[np.ndarray, " n"], dict[str, Float[np.ndarray, " n"]]]:
@@ -285,7 +303,8 @@ class Solution(ByName):
         about += [str(self.statistics)] if self.statistics is not None else []
         units = {n: self.system.unit(n) for n in curves}
         steps = [n for n in curves if self.system.is_discrete(n)]
-        return solution_view(title, about, time, curves, units, steps)
+        moving = self.animation() if has_shapes(self.system) else None
+        return solution_view(title, about, time, curves, units, steps, moving)
 
     def __repr__(self) -> str:
         shape = f"{self.t.shape[0]} points"

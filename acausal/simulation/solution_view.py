@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Float
 
-from acausal.reporting import Curve, View, small_plot
+from acausal.reporting import Animation, Curve, View, small_plot, still
 
 MOST_PLOTS, MOST_CURVES = 4, 6
 """Small plots of a view, one for each unit, and curves in each."""
@@ -20,6 +20,7 @@ def solution_view(
     curves: Mapping[str, Float[np.ndarray, " n"]],
     units: Mapping[str, str],
     steps: Sequence[str] = (),
+    moving: Animation | None = None,
 ) -> str:
     """HTML of a trajectory.
 
@@ -28,8 +29,11 @@ def solution_view(
         time: in seconds.
         curves: by name, what is shown of it. units: by name.
         steps: the curves that keep each value until the next.
+        moving: the mechanism, of which the last frame is shown.
     """
     view = View(title, ", ".join(about))
+    if moving is not None:
+        view.html(still(moving))
     groups: dict[str, list[str]] = {}
     for name in curves:
         groups.setdefault(units[name], []).append(name)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components.planar import shapes
 from acausal.components.planar.conventions import turned
 from acausal.components.planar.interfaces import PartialTwoFrames
 from acausal.components.planar.vehicle import PartialSlippingWheel
@@ -84,6 +85,9 @@ class Bushing(PartialNetwork, PartialTwoFrames):
         yield ac.Eq(a.fx + b.fx, 0)
         yield ac.Eq(a.fy + b.fy, 0)
         yield ac.Eq(a.t + b.t + away[0] * b.fy - away[1] * b.fx, 0)
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.between(self.frame_a, self.frame_b, shapes.SPRING_DAMPER)
 
 
 class Tyre(PartialLaw, PartialSlippingWheel):

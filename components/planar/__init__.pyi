@@ -24,6 +24,7 @@ __all__ = [
     "Body",
     "CutForce",
     "CutForceAndTorque",
+    "CutRevolute",
     "CutTorque",
     "Damper",
     "DifferentialGear",
@@ -586,6 +587,35 @@ class AbsoluteVelocity(PartialAbsolute):
         frame_resolve: Mapping[str, Any] = ...,
         frame_a: Mapping[str, Any] = ...,
         v: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class CutRevolute(Revolute):
+    """A hinge that closes a loop, whose other joints all keep their states: nothing is solved by Newton's method."""
+
+    stateSelect: ClassVar[ac.Option]
+    """priority of phi and w as states"""
+    T: ClassVar[ac.Parameter]
+    """time in which a gap closes [s]"""
+    gap: ClassVar[ac.Variable]
+    """from frame_a to frame_b [m]"""
+    rate: ClassVar[ac.Variable]
+    """speed of the gap [m/s]"""
+    def __init__(
+        self,
+        *,
+        T: SupportsFloat | ac.Start = ...,
+        useFlange: bool = ...,
+        stateSelect: Literal["never", "avoid", "default", "prefer", "always"] = ...,
+        frame_a: Mapping[str, Any] = ...,
+        frame_b: Mapping[str, Any] = ...,
+        flange_a: Mapping[str, Any] = ...,
+        support: Mapping[str, Any] = ...,
+        phi: ac.Start | Mapping[str, Any] = ...,
+        w: ac.Start | Mapping[str, Any] = ...,
+        z: ac.Start | Mapping[str, Any] = ...,
+        t: ac.Start | Mapping[str, Any] = ...,
+        gap: ac.Start | Mapping[str, Any] = ...,
+        rate: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class FixedTranslation(Offset):

@@ -8,7 +8,7 @@ from acausal.components import icons, thermal
 from acausal.components.mechanics import rotational
 from acausal.components.rotational.components import Inertia
 
-from . import multibody
+from . import multibody, shapes
 from .interfaces import PartialTwoFramesAndHeat
 from .joints import Revolute
 from .parts import Body, Fixed, FixedRotation, FixedTranslation
@@ -71,6 +71,10 @@ class PartialGear(PartialTwoFramesAndHeat):
         yield ac.Eq(a.fy, ac.cos(self.phi_gear) * self.F_n)
         yield ac.Eq(a.fx + b.fx, 0)
         yield ac.Eq(a.fy + b.fy, 0)
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.disc(self.frame_a, self.r_a)
+        yield shapes.disc(self.frame_b, self.r_b)
 
 
 class RigidNoLossExternal(PartialGear):

@@ -7,6 +7,7 @@ from acausal.components import icons, thermal
 from acausal.components.choices import STATE_SELECT
 from acausal.components.mechanics import rotational, translational
 
+from . import shapes
 from .conventions import DRAWN, coincident, direction, turned
 from .friction import striple
 from .interfaces import Frame, Offset, PartialTwoFrames
@@ -51,6 +52,9 @@ class Prismatic(Offset):
         else:
             yield ac.Eq(self.f, 0)
 
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.between(self.frame_a, self.frame_b, shapes.SLIDE)
+
 
 class Revolute(PartialTwoFrames):
     """A hinge without friction: ``frame_b`` is turned by ``phi`` [rad] against ``frame_a``.
@@ -72,7 +76,7 @@ class Revolute(PartialTwoFrames):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        yield from coincident(self.frame_a, self.frame_b)
+        yield from self._held_together()
         yield ac.Eq(self.w, ac.der(self.phi))
         yield ac.Eq(self.z, ac.der(self.w))
         yield ac.Eq(self.frame_a.phi + self.phi, self.frame_b.phi)
@@ -84,6 +88,46 @@ class Revolute(PartialTwoFrames):
             yield ac.Eq(self.support.phi, 0)
         else:
             yield ac.Eq(self.t, 0)
+
+    def _held_together(self) -> Iterator[ac.Eq]:
+        """Both frames are at one place."""
+        return coincident(self.frame_a, self.frame_b)
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.pin(self.frame_a)
+
+
+class CutRevolute(Revolute):
+    """A hinge that closes a loop, whose other joints all keep their states: nothing is solved by Newton's method.
+
+    Its frames are held together by accelerations: of the gap ``g = frame_b - frame_a``, resolved in the world,
+    ``der(der(g)) + 2 der(g)/T + g/T**2 = 0``. It is zero at the start and stays so but for errors of integration, which
+    vanish within some ``T`` [s] (J. Baumgarte: Stabilization of constraints and integrals of motion in dynamical
+    systems, Computer Methods in Applied Mechanics and Engineering 1, 1972, with alpha = beta = 1/T). Steps must resolve
+    ``T``.
+    """
+
+    __modelica__ = None
+
+    stateSelect = ac.Option("avoid", choices=STATE_SELECT, doc="priority of phi and w as states")
+    T = ac.Parameter(0.05, unit="s", min=0, doc="time in which a gap closes")
+    gap = ac.Variable(unit="m", shape=2, state="never", doc="from frame_a to frame_b")
+    rate = ac.Variable(unit="m/s", shape=2, state="never", doc="speed of the gap")
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        yield from super().initial_equations()
+        for value in (*self.gap, *self.rate):
+            yield ac.Eq(value, 0)
+
+    def _held_together(self) -> Iterator[ac.Eq]:
+        a, b = self.frame_a, self.frame_b
+        ends = ((a.x, b.x), (a.y, b.y))
+        for gap, rate, (start, end) in zip(self.gap, self.rate, ends, strict=True):
+            yield ac.Eq(gap, end - start)
+            yield ac.Eq(rate, ac.der(gap))
+            yield ac.Eq(ac.der(rate) + 2 * rate / self.T + gap / self.T**2, 0)
+        yield ac.Eq(a.fx + b.fx, 0)
+        yield ac.Eq(a.fy + b.fy, 0)
 
 
 class PartialRolling(ac.Component):
@@ -113,6 +157,9 @@ class PartialRolling(ac.Component):
         yield ac.Eq(self.vx, ac.der(self.x))
         yield ac.Eq(self.frame_a.y, self.R)
         yield ac.Eq(self.frame_a.fx * self.R, self.frame_a.t)
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.disc(self.frame_a, self.R)
 
 
 class IdealRolling(PartialRolling):

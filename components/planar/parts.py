@@ -7,6 +7,7 @@ import acausal as ac
 from acausal.components import icons, thermal
 from acausal.components.choices import STATE_SELECT
 
+from . import shapes
 from .conventions import DRAWN, GRAVITY, coincident, turned
 from .interfaces import Frame, Offset, PartialTwoFrames
 
@@ -33,6 +34,9 @@ class Fixed(ac.Component):
         yield ac.Eq(self.frame.x, self.r[0])
         yield ac.Eq(self.frame.y, self.r[1])
         yield ac.Eq(self.frame.phi, self.phi)
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.at(self.frame, shapes.GROUND, extent=(-1.7, -2.1, 1.7, 0.0))
 
 
 class Body(ac.Component):
@@ -74,6 +78,9 @@ class Body(ac.Component):
         yield ac.Eq(self.z, ac.der(self.w))
         yield ac.Eq(frame.t, self.I * self.z)
 
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.disc(self.frame_a, ac.sqrt(2 * self.I / self.m), traced=True)
+
 
 class FixedTranslation(Offset):
     """A rigid rod without mass: ``frame_b`` is ``r`` [m] away from ``frame_a``, at the same angle."""
@@ -88,6 +95,9 @@ class FixedTranslation(Offset):
         away = turned(self.frame_a.phi, self.r[0], self.r[1])
         yield ac.Eq(self.r0[0], away[0])
         yield ac.Eq(self.r0[1], away[1])
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.between(self.frame_a, self.frame_b, shapes.ROD)
 
 
 class FixedRotation(PartialTwoFrames):
@@ -153,6 +163,9 @@ class Spring(PartialSpring):
         yield ac.Eq(self.frame_a.t, 0)
         yield ac.Eq(self.frame_b.t, 0)
 
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.between(self.frame_a, self.frame_b, shapes.SPRING)
+
 
 class SpringDamper(PartialSpring, thermal.PartialElementaryConditionalHeatPort):
     """A linear spring and damper along both axes of the world, and against rotation.
@@ -183,6 +196,9 @@ class SpringDamper(PartialSpring, thermal.PartialElementaryConditionalHeatPort):
         yield ac.Eq(self.frame_a.t, -self.tau)
         yield ac.Eq(self.frame_b.t, self.tau)
         yield ac.Eq(self.lossPower, self.d_x * v_x**2 + self.d_y * v_y**2)
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.between(self.frame_a, self.frame_b, shapes.SPRING_DAMPER)
 
 
 class Damper(PartialTwoFrames, thermal.PartialElementaryConditionalHeatPort):
@@ -225,3 +241,6 @@ class Damper(PartialTwoFrames, thermal.PartialElementaryConditionalHeatPort):
         yield ac.Eq(a.t, 0)
         yield ac.Eq(b.t, 0)
         yield ac.Eq(self.lossPower, -self.f * self.v)
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.between(self.frame_a, self.frame_b, shapes.DAMPER)

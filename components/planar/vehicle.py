@@ -9,6 +9,7 @@ from acausal.components.choices import STATE_SELECT
 from acausal.components.mechanics import rotational
 from acausal.components.rotational.gears import IdealPlanetary
 
+from . import shapes
 from .conventions import direction, equal, turned
 from .friction import striple
 from .interfaces import Frame
@@ -50,6 +51,15 @@ class PartialWheel(thermal.PartialElementaryConditionalHeatPortWithoutT):
         yield ac.Eq(-self.f_long * self.radius, self.flange_a.tau)
         yield ac.Eq(frame.t, 0)
         yield ac.Eq(self.f_long, frame.fx * self.e0[0] + frame.fy * self.e0[1])
+
+    def shapes(self) -> Iterator[ac.Shape]:
+        yield shapes.at(
+            self.frame_a,
+            shapes.BOX,
+            phi=ac.atan2(self.e0[1], self.e0[0]),
+            size=(self.radius, 0.4 * self.radius),
+            filled=True,
+        )
 
 
 class IdealWheelJoint(PartialWheel):

@@ -197,9 +197,13 @@ def test_another_solution_is_no_silent_result() -> None:
 
 
 class Slider(ac.Component):
-    """A crank moves a piston; the piston's way is the state."""
+    """A crank moves a piston; the piston's way is a state.
 
-    def __init__(self) -> None:
+    Arguments:
+        end: the joint between rod and piston.
+    """
+
+    def __init__(self, end: planar.Revolute) -> None:
         super().__init__()
         self.wall, self.disc = planar.Fixed(), planar.Body(m=1.0, I=0.1, g=(0.0, 0.0))
         self.slide = planar.Prismatic(
@@ -208,8 +212,8 @@ class Slider(ac.Component):
             s=ac.Start(0.9, fixed=True),
             v=ac.Start(0.5, fixed=True),
         )
-        self.drive = planar.Revolute(phi=ac.Start(0.6), stateSelect="never")
-        self.pin, self.end = (planar.Revolute(phi=ac.Start(phi)) for phi in (-1.0, 0.4))
+        self.drive, self.pin = (planar.Revolute(phi=ac.Start(phi)) for phi in (0.6, -1.0))
+        self.end = end
         self.crank, self.rod = (planar.FixedTranslation(r=(length, 0.0)) for length in (0.3, 0.8))
         self.connect(self.wall.frame, self.drive.frame_a, self.slide.frame_a)
         self.connect(self.drive.frame_b, self.crank.frame_a, self.disc.frame_a)
@@ -221,10 +225,62 @@ class Slider(ac.Component):
 
 @pytest.mark.slow
 def test_a_dead_point_of_the_state_is_an_error_that_names_the_remedy() -> None:
-    system = ac.compile(Slider())
+    system = ac.compile(Slider(planar.Revolute(phi=ac.Start(0.4))))
     assert system.states[:2] == ("slide.s", "slide.v")
     with pytest.raises(ac.SimulationError, match=r"dead point of its states.*stateSelect"):
         ac.simulate(system, (0.0, 3.0), dt=0.01, solver="rk4")
+
+
+class Cut(ac.Component):
+    """A four-bar whose last joint may be cut, and whose crank turns."""
+
+    def __init__(self, last: planar.Revolute) -> None:
+        super().__init__()
+        self.left, self.right = planar.Fixed(), planar.Fixed(r=(1.0, 0.0))
+        self.joint = [planar.Revolute(phi=ac.Start(phi)) for phi in (0.6, 0.0, -2.3)]
+        begin = ac.Start(0.6, fixed=True), ac.Start(14.0, fixed=True)
+        self.joint[0].modify(stateSelect="always", phi=begin[0], w=begin[1])
+        self.last = last
+        self.rod = [planar.FixedTranslation(r=(length, 0.0)) for length in FourBar.LENGTHS]
+        self.body = [planar.Body(m=1.0, I=0.02) for _ in self.rod]
+        end = self.left.frame
+        for joint, rod, body in zip(self.joint, self.rod, self.body, strict=True):
+            self.connect(end, joint.frame_a)
+            self.connect(joint.frame_b, rod.frame_a)
+            self.connect(rod.frame_b, body.frame_a)
+            end = rod.frame_b
+        self.connect(end, self.last.frame_a)
+        self.connect(self.last.frame_b, self.right.frame)
+
+
+@pytest.mark.slow
+def test_a_cut_joint_moves_as_the_closed_loop_does_and_does_not_drift() -> None:
+    start = ac.Start(1.7)  # the assembly
+    closed = ac.compile(Cut(planar.Revolute(phi=start)))
+    cut = ac.compile(Cut(planar.CutRevolute(phi=start)))
+    assert cut.states == tuple(f"joint[{i}].{n}" for i in (1, 2, 3) for n in ("phi", "w"))
+    assert not cut.iterates(("last.phi", "last.frame_a.fx", *(f"body[{i}].z" for i in (1, 2, 3))))
+    at = np.linspace(0.0, 3.0, 61)
+    one, other = (ac.simulate(s, 3.0, saveat=at, **TIGHT) for s in (closed, cut))
+    assert float(one["joint[1].phi"][-1]) > 2 * 2 * np.pi
+    assert np.abs(np.asarray(other[["last.gap[1]", "last.gap[2]"]])).max() < 1e-9
+    for name in ("joint[1].phi", "joint[2].phi", "joint[3].phi", "last.phi"):
+        np.testing.assert_allclose(other[name], one[name], atol=1e-9)
+    np.testing.assert_allclose(other["last.frame_a.fx"], one["last.frame_a.fx"], atol=1e-6)
+
+
+@pytest.mark.slow
+def test_a_loop_with_a_cut_joint_passes_the_dead_points_of_its_parts() -> None:
+    system = ac.compile(Slider(planar.CutRevolute(phi=ac.Start(0.4))))
+    assert len(system.states) == 6
+    found = ac.simulate(system, 5.0, saveat=np.linspace(0.0, 5.0, 501), **TIGHT)
+    assert abs(float(found["drive.phi"][-1])) > 2 * np.pi
+    assert float(np.min(found["slide.s"])) == pytest.approx(0.5, abs=1e-4)  # both arms in line
+    assert float(np.max(found["slide.s"])) == pytest.approx(1.1, abs=1e-4)
+    assert np.abs(np.asarray(found[["end.gap[1]", "end.gap[2]"]])).max() < 1e-9
+    np.testing.assert_allclose(
+        np.abs(np.asarray(found["disc.w"])), abs(found["disc.w"][0]), rtol=1e-8
+    )
 
 
 # -- world and files -------------------------------------------------------------------------------

@@ -292,7 +292,7 @@ def test_numbers_of_a_page_are_json(tmp_path: Path):
     found = re.search(r'<script type="application/json" id="data">(.*?)</script>', text)
     assert found is not None
     told = json.loads(found[1])
-    assert set(told) == {"arrays", "plots", "first"}
+    assert set(told) == {"arrays", "plots", "motions", "first"}
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from acausal.reporting import Card, Curve, PageContent, Plot, Section, render
+from acausal.reporting import (
+    Animation,
+    Card,
+    Curve,
+    Moving,
+    PageContent,
+    Plot,
+    Section,
+    Tab,
+    render,
+)
 from acausal.reporting.document.library import plot_library
 from tests.support.browser import Browser, browser
 from tests.support.pages import EVIL, content
@@ -273,4 +283,35 @@ def test_without_a_library_clicks_still_work(tab: Browser, tmp_path: Path):
     tab.click("#tab1")
     assert tab.evaluate("document.querySelectorAll('#part1 .plot svg path.curve').length") == 4
     assert tab.evaluate("document.documentElement.scrollWidth") <= PHONE
+    assert tab.messages == []
+
+
+def set_value(element: str, value: str, event: str) -> str:
+    """A script that gives a control a value, as a user would."""
+    return f"(() => {{ const s = {element}; s.value = {value}; s.dispatchEvent(new Event('{event}')); }})()"
+
+
+def test_a_mechanism_moves_and_fits_a_phone(tab: Browser, tmp_path: Path):
+    t = np.linspace(0.0, 4.0, 201)
+    zero, one = np.zeros(1), np.ones(1)
+    rod = Moving("rod", "M0 0H1", zero, zero, np.sin(t), one, None, (0.0, -1.0, 1.0, 1.0))
+    x, y = np.cos(np.sin(t)), np.sin(np.sin(t))
+    bob = Moving("bob", "M-1 0H1", x, y, zero, one, one, filled=True, traced=True)
+    moving = Animation("It swings.", t, (bob, rod), "bob")
+    told = PageContent("Swing", "", "", (), (Tab("", (Section("", (moving,)),)),))
+    tab.open(written(tmp_path, told, ""), width=PHONE)
+    assert tab.evaluate("document.documentElement.scrollWidth") <= PHONE
+    tab.evaluate(set_value("document.querySelector('.motion input')", "1.01", "input"))
+    pose = "document.querySelectorAll('.moving')[{}].getAttribute('transform')"
+    turned = float(tab.evaluate(pose.format(1)).split("rotate(")[1].split(")")[0])
+    assert turned == pytest.approx(np.degrees(np.sin(1.01)), abs=0.02)
+    way = "document.querySelector('.way').getAttribute('d').split('L').length"
+    assert tab.evaluate(way) == 52
+    tab.evaluate(set_value("document.querySelectorAll('.motion select')[1]", "''", "change"))
+    assert tab.evaluate("document.querySelector('.way').getAttribute('d')") == ""
+    tab.click(".motion .play")
+    assert tab.evaluate("document.querySelector('.play').getAttribute('aria-label')") == "Pause"
+    started = float(tab.evaluate("document.querySelector('.motion input').value"))
+    tab.evaluate("new Promise(done => setTimeout(done, 200))")
+    assert float(tab.evaluate("document.querySelector('.motion input').value")) > started
     assert tab.messages == []

@@ -119,7 +119,50 @@ class Plot:
     low: bool = False
 
 
-Block = Text | Table | Equations | Plot | Drawing
+@dataclass(frozen=True, eq=False)
+class Moving:
+    """An outline that moves.
+
+    Attributes:
+        name: whose it is.
+        path: SVG path data in units of its own.
+        x, y, phi: where its origin is [m] and how it is turned [rad], over time; one element for what does not change.
+        along, across: its units along its own axes [m]; None for those of a mark.
+        extent: least x and y of the path, and greatest ones, in its units.
+        filled: whether it is an area.
+        traced: whether the way of its origin can be shown.
+    """
+
+    name: str
+    path: str
+    x: Numbers
+    y: Numbers
+    phi: Numbers
+    along: Numbers | None = None
+    across: Numbers | None = None
+    extent: tuple[float, float, float, float] = (-1.0, -1.0, 1.0, 1.0)
+    filled: bool = False
+    traced: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Animation:
+    """A mechanism that moves.
+
+    Attributes:
+        caption: what it shows.
+        time: when [s].
+        shapes: what moves, the ones behind first.
+        trace: name of the one whose way is shown at first; an empty text for none.
+    """
+
+    caption: str
+    time: Numbers
+    shapes: tuple[Moving, ...]
+    trace: str = ""
+
+
+Block = Text | Table | Equations | Plot | Drawing | Animation
 
 
 @dataclass(frozen=True)

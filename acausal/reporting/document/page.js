@@ -294,6 +294,72 @@ for (const type of ["scroll", "resize"]) addEventListener(type, () => {
   requestAnimationFrame(() => { waiting = false; drawVisible(); });
 }, { passive: true });
 
+// -- mechanisms that move ------------------------------------------------------------------------------------
+const SPEEDS = [.01, .02, .05, .1, .2, .5, 1, 2, 5, 10, 20, 50, 100];
+for (const figure of all(".motion")) setInMotion(figure, data.motions[figure.dataset.motion]);
+function setInMotion(figure, spec) {
+  const ts = read(spec.time), outlines = all(".moving", figure), way = figure.querySelector(".way");
+  const shapes = spec.shapes.map((shape, i) => ({ ...shape, outline: outlines[i], pose: shape.pose.map(read) }));
+  const first = ts[0], last = ts[ts.length - 1], span = last - first || 1;
+  const made = (tag, options) => Object.assign(document.createElement(tag), options);
+  const play = made("button", { type: "button", className: "play" });
+  const slider = made("input", { type: "range", min: first, max: last, step: "any", value: first });
+  slider.setAttribute("aria-label", "Time");
+  const clock = made("output"), bar = made("div", { className: "bar" });
+  const chooser = (label, options, chosen) => {
+    const select = made("select"), around = made("label", { textContent: label + " " });
+    for (const [value, text] of options) select.append(new Option(text, value, false, value === chosen));
+    around.append(select);
+    return [around, select];
+  };
+  const usual = SPEEDS.reduce((a, b) => Math.abs(Math.log(span / b / 10)) < Math.abs(Math.log(span / a / 10)) ? b : a);
+  const real = span >= 3 && span <= 30 ? 1 : usual;
+  const [speedLabel, speed] = chooser("speed", SPEEDS.filter(v => v >= real / 10 && v <= real * 10).map(v => [v, v + " ×"]), real);
+  const names = [...new Set(shapes.filter(s => s.traced).map(s => s.name))];
+  const [wayLabel, traced] = chooser("trace", [["", "none"], ...names.map(n => [n, n])], spec.trace);
+  bar.append(play, slider, clock, speedLabel, wayLabel);
+  figure.insertBefore(bar, figure.querySelector("figcaption"));
+  let now = first, running = false, before = 0;
+  const between = (values, i, part) => values.length === 1 ? values[0] : values[i] + part * (values[i + 1] - values[i]);
+  function row() {
+    let low = 0, high = ts.length - 1;
+    while (high - low > 1) { const middle = (low + high) >> 1; if (ts[middle] <= now) low = middle; else high = middle; }
+    return [low, high > low ? (now - ts[low]) / (ts[high] - ts[low]) : 0];
+  }
+  function draw() {
+    const [i, part] = row();
+    for (const { outline, pose } of shapes) {
+      const [x, y, phi, along, across] = pose.map(values => values ? between(values, i, part) : spec.mark);
+      outline.setAttribute("transform", `translate(${x} ${y}) rotate(${phi * 180 / Math.PI}) scale(${along} ${across})`);
+    }
+    const point = shapes.find(shape => shape.traced && shape.name === traced.value);
+    const rows = point ? Array.from({ length: i + 1 }, (_, k) => [k, 0]).concat([[i, part]]) : [];
+    way.setAttribute("d", rows.map(([k, p], n) =>
+      `${n ? "L" : "M"}${between(point.pose[0], k, p).toPrecision(5)} ${between(point.pose[1], k, p).toPrecision(5)}`).join(""));
+    slider.value = now;
+    clock.textContent = now.toFixed(span < 1 ? 3 : 2) + " s";
+    slider.setAttribute("aria-valuetext", clock.textContent);
+  }
+  function run(on) {
+    running = on;
+    play.textContent = on ? "❚❚" : "▶";
+    play.setAttribute("aria-label", on ? "Pause" : "Play");
+    if (on) { if (now >= last) now = first; before = performance.now(); requestAnimationFrame(step); }
+  }
+  function step(instant) {
+    if (!running) return;
+    now = Math.min(last, now + Math.max(0, instant - before) / 1000 * Number(speed.value));
+    before = instant;
+    draw();
+    if (now >= last) run(false); else requestAnimationFrame(step);
+  }
+  play.addEventListener("click", () => run(!running));
+  slider.addEventListener("input", () => { run(false); now = Number(slider.value); draw(); });
+  traced.addEventListener("change", draw);
+  run(false);
+  draw();
+}
+
 let wanted = "";
 try { wanted = decodeURIComponent(location.hash.slice(1)); } catch (error) { wanted = ""; }
 choose(cards.has(wanted) ? wanted : data.first, false);

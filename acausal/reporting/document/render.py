@@ -12,6 +12,7 @@ from itertools import count, groupby
 from typing import Any
 
 from acausal.reporting.document.content import (
+    Animation,
     Block,
     Card,
     Drawing,
@@ -23,6 +24,7 @@ from acausal.reporting.document.content import (
     Text,
 )
 from acausal.reporting.document.library import INSTALL, plot_library
+from acausal.reporting.document.motion import stage, still
 from acausal.reporting.document.numbers import Pool, Raw, as_json, numbers
 from acausal.reporting.document.picture import colors, picture
 from acausal.reporting.mathml import mathml, named, names_in
@@ -54,7 +56,7 @@ def render(content: PageContent, library: str | None = None) -> str:
     found = library
     if library is None:
         found = plot_library() if content.plots else ""
-    writer = _Writer(interactive=bool(found), specs=[], pool=Pool())
+    writer = _Writer(interactive=bool(found), specs=[], motions=[], pool=Pool())
     parts = [("Model", "".join(writer.model(content)))] if content.cards else []
     for tab in content.tabs:
         parts.append((tab.title, "".join(writer.section(s, "h2") for s in tab.sections)))
@@ -69,7 +71,12 @@ def render(content: PageContent, library: str | None = None) -> str:
     )
     alone = " hidden" if len(parts) == 1 and not content.cards else ""
     first = content.cards[0].path if content.cards else ""
-    told = {"arrays": writer.pool.written(), "plots": writer.specs, "first": first}
+    told = {
+        "arrays": writer.pool.written(),
+        "plots": writer.specs,
+        "motions": writer.motions,
+        "first": first,
+    }
     lead = f'<p class="lead">{_safe(content.lead)}</p>' if content.lead else ""
     note = "" if found or not content.plots else f'<p class="note">{_safe(PLAIN)}</p>'
     return "".join(
@@ -97,6 +104,7 @@ class _Writer:
 
     interactive: bool
     specs: list[dict[str, Any]]
+    motions: list[dict[str, Any]]
     pool: Pool
     serial: Iterable[int] = field(default_factory=count)
 
@@ -136,6 +144,31 @@ class _Writer:
                 return f"<figure>{_drawn(block)}{caption}</figure>"
             case Plot():
                 return self.plot(block)
+            case Animation():
+                return self.animation(block)
+
+    def animation(self, block: Animation) -> str:
+        """A still frame; the script of the page sets it in motion."""
+        self.motions.append(
+            {
+                "time": self.pool.add(block.time, fine=True),
+                "trace": block.trace,
+                "mark": stage(block).mark,
+                "shapes": [
+                    {
+                        "name": one.name,
+                        "traced": one.traced,
+                        "pose": [
+                            self.pool.add(v, fine=True)
+                            for v in (one.x, one.y, one.phi, one.along, one.across)
+                        ],
+                    }
+                    for one in block.shapes
+                ],
+            }
+        )
+        caption = f"<figcaption>{_prose(block.caption)}</figcaption>"
+        return f'<figure class="motion" data-motion="{len(self.motions) - 1}">{still(block, 0)}{caption}</figure>'
 
     def plot(self, plot: Plot) -> str:
         caption = f"<figcaption>{_prose(plot.caption)}</figcaption>"
