@@ -26,8 +26,8 @@ from acausal.codegen.program import DISCRETE, INPUTS, STATES, ZERO, Program
 from acausal.flattening import Integers
 from acausal.modeling import ModuleCall, primes, time as internal_time
 
-MAX_LOOP = 6
-"""Linear loops of more unknowns are not solved symbolically."""
+MAX_LOOP, MAX_OPERATIONS = 6, 400
+"""Linear loops of more unknowns, or whose solution takes more operations, are not solved symbolically."""
 
 time = sp.Symbol("time")
 
@@ -145,7 +145,7 @@ class _Writer:
         own = [self.symbol(p) for p in unknowns]
         _, *filled = self._slots(loop.arguments, loop.size, row).values()
         residuals = [_written(formula, [*own, *filled], filled) for formula in loop.equations]
-        is_small = loop.is_linear and len(own) <= MAX_LOOP
+        is_small = loop.is_linear and len(own) <= MAX_LOOP and _is_readable(residuals, own)
         solved = sp.solve(residuals, own, dict=True) if is_small else []
         if solved:
             self._values.update({p: solved[0][s] for p, s in zip(unknowns, own, strict=True)})
@@ -189,6 +189,22 @@ def _add(
 ) -> None:
     for row, factor, value in zip(rows.tolist(), factors.tolist(), values, strict=True):
         terms[row].append(sp.nsimplify(factor) * value)
+
+
+def _is_readable(residuals: list[sp.Expr], unknowns: list[sp.Symbol]) -> bool:
+    """Whether the solution of linear equations can be read: elimination with names for coefficients shows its size."""
+    names: dict[sp.Expr, sp.Symbol] = {}
+
+    def named(value: sp.Expr) -> sp.Expr:
+        return value if value.is_number else names.setdefault(value, sp.Dummy())
+
+    matrix, right = (m.applyfunc(named) for m in sp.linear_eq_to_matrix(residuals, unknowns))
+    values = {name: value for value, name in names.items()}
+    try:
+        found = matrix.LUsolve(right).xreplace(values)
+    except ValueError:  # singular: there is nothing to read
+        return False
+    return sum(e.count_ops() for e in found) <= MAX_OPERATIONS
 
 
 def _written(formula: Formula, known: Sequence[sp.Expr], modules: Sequence[sp.Expr]) -> sp.Expr:

@@ -16,6 +16,7 @@ from acausal.components import neural, planar, rotational as rot
 from acausal.export.fmu_text.variables import shown_by_others
 from acausal.training.build_problem import build_problem
 from acausal.training.options import FitOptions
+from examples.four_bar.model import FourBar as DrivenFourBar
 from tests.support.exported_c import ExportedC
 
 GRAVITY = 9.81
@@ -425,3 +426,9 @@ def test_a_bushing_gives_back_no_more_than_it_took_less_what_it_lost() -> None:
     lost = system.observe("bushing.lossPower", 0.0, x, np.zeros(0), params)
     assert lost > 0
     assert float(rate) == pytest.approx(-float(lost), rel=1e-9)
+
+
+def test_equations_of_a_linkage_are_left_implicit_where_nobody_could_read_them() -> None:
+    equations = ac.compile(DrivenFourBar()).equations
+    assert sum(equation.rhs == 0 for equation in equations) >= 6
+    assert max(equation.count_ops() for equation in equations) < 400
