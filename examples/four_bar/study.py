@@ -1,4 +1,4 @@
-"""The study: a record of the motor's torque, the friction that it determines, and a faster record that was held out."""
+"""The study: a record of the motor's torque, the friction that it determines, and a slower record that was held out."""
 
 from __future__ import annotations
 

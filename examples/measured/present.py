@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 import acausal as ac
@@ -48,9 +49,9 @@ WIDE = 160
 
 def show(title: str, columns: Mapping[str, str], rows: Sequence[Row]) -> None:
     """Print a table; ``columns`` are headers by name of the error."""
-    table = Table("", *columns.values(), title=title)
+    table = Table("", *map(escape, columns.values()), title=title)
     for row in rows:
-        table.add_row(*row.cells(columns))
+        table.add_row(*map(escape, row.cells(columns)))
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
 
 

@@ -1,0 +1,1 @@
+"""A single-track vehicle: the tyres of both axles, learned from a campaign of manoeuvres."""
