@@ -16,12 +16,12 @@ from acausal._jax import array, cast, known, numpy_or_jax, select, traced
 from acausal.codegen import Packed, Values
 from acausal.errors import SimulationError
 from acausal.simulation import solvers
-from acausal.simulation.fixed_steps import SIDE, Steps, integrate
+from acausal.simulation.fixed_steps import SIDE, Steps, integrate, stability_limit
 from acausal.simulation.inputs import breaks, evaluate_all
 from acausal.simulation.run import Run
 from acausal.simulation.sampled_inputs import over_steps
 from acausal.simulation.solution import Solution
-from acausal.simulation.stability import warn_of_long_steps
+from acausal.simulation.stability import FAR, is_rough, warn_of_long_steps
 from acausal.simulation.step_grid import ON_GRID, rows_of
 
 if TYPE_CHECKING:
@@ -69,9 +69,11 @@ def simulate_fixed(
     else:
         last = evaluate_all(run.inputs, array(ends[-1:]))  # an input that is held has jumped there
         u = array(numpy_or_jax(samples, last).concatenate([samples.start, last])[rows])
+    rough = not traced(x) and is_rough(np.asarray(x))
     x = x if saved is None else select(x, rows)
-    if traced(x) and isinstance(solver, solvers.EXPLICIT):
-        _check_derivatives(run.system, start._replace(t=t, x=x, u=u), float(h))
+    if (rough or traced(x)) and isinstance(solver, solvers.EXPLICIT):
+        limit = stability_limit(scheme) if rough else FAR
+        _check_steps(run.system, start._replace(t=t, x=x, u=u), float(h), limit)
     t, x, u = cast((t, x, u), dtype)
     return Solution(start._replace(t=t, x=x, u=u), run.system)
 
@@ -141,11 +143,11 @@ def _check(
     )
 
 
-def _check_derivatives(system: System, trajectory: Values, h: float) -> None:
-    """Warn where derivatives are taken through steps far outside the solver's region of stability."""
+def _check_steps(system: System, trajectory: Values, h: float, limit: float) -> None:
+    """Warn where states are rough, or derivatives are taken, in steps outside the solver's region of stability."""
     values = known(trajectory)
     if values is not None:
-        warn_of_long_steps(system, values, h)
+        warn_of_long_steps(system, values, h, limit)
 
 
 def _advice(modes: NDArray[np.complex128], dt: float) -> str:

@@ -366,6 +366,19 @@ def inner_fractions(solver: object, substeps: int) -> tuple[float, ...] | None:
     return tuple(sorted(fraction for fraction in found if 0 < fraction < 1))
 
 
+def stability_limit(solver: Scheme) -> float:
+    """The rate of a damped mode, in units of 1/step, from which on an explicit scheme lets it grow."""
+    rows, _, weights, _ = _tableau(solver)
+    rates = np.linspace(0.0, 10.0, 1001)[1:]
+    stages: list[np.ndarray] = []  # slopes over the state, in dx/dt = -x
+    for row in rows:
+        inner = sum((a * k for a, k in zip(row, stages, strict=True)), np.zeros(len(rates)))
+        stages.append(-(1 + rates * inner))
+    after = 1 + rates * sum(b * k for b, k in zip(weights, stages, strict=True))
+    grows = np.abs(after) > 1
+    return float(rates[np.argmax(grows)]) if grows.any() else np.inf
+
+
 class Tableau(NamedTuple):
     """The coefficients of a Runge–Kutta scheme whose stages are computed one after the other.
 

@@ -112,9 +112,10 @@ def simulate(
         SimulationError: if the solution stops short of the end, with the time reached, or runs away.
 
     Warns:
-        UserWarning: if derivatives are taken, outside of `jax.jit` and `jax.vmap`, through steps far too long for an
-            explicit solver; if the points of the output hide a source's period; if positions that equations of several
-            solutions give, as in a linkage, jump from one to another.
+        UserWarning: if fixed steps are too long for an explicit solver, and states are rough; if derivatives are taken,
+            outside of `jax.jit` and `jax.vmap`, through steps that are far too long; if the points of the output hide a
+            source's period; if positions that equations of several solutions give, as in a linkage, jump from one to
+            another.
     """
     need_compiled(system, "simulate")
     need_double_precision()

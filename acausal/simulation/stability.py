@@ -24,25 +24,40 @@ LARGEST = 50
 """Models with more states are not examined: eigenvalues would take too long."""
 
 FAR = 10.0
-"""Steps times the rate of a damped mode that are outside the region of stability of every explicit solver."""
+"""Steps times the rate of a damped mode that are far outside the region of stability of every explicit solver."""
+
+ROUGH = 0.3
+"""Part of its steps by which a state's steps change, where these may be too long: it is resolved by few of them."""
 
 
-def long_steps(system: System, values: Values, h: float) -> str | None:
-    """A sentence on steps of an explicit solver that are far too long somewhere along a trajectory, or None.
+def long_steps(system: System, values: Values, h: float, limit: float = FAR) -> str | None:
+    """A sentence on steps of an explicit solver that are too long somewhere along a trajectory, or None.
 
     Arguments:
         system: the model.
         values: its trajectory, n points; none of them traced.
         h: the steps' length [s].
+        limit: steps times the rate of a damped mode that are too long.
     """
     damping, t = fastest_mode(system, values)
-    if damping * h <= FAR:
+    if damping * h <= limit:
         return None
+    size, what = "far too", "even where states look right, derivatives are wrong"
+    if limit < FAR:
+        size, what = "too", "states that stay within bounds are wrong"
     return (
-        f"Steps of {h:g} s are far too long for the model's fastest mode, {damping:.3g} 1/s at "
-        f"t = {t:g} s: even where states look right, derivatives are wrong. Choose dt below "
-        f"{1 / damping:.1g} s, an implicit solver, or leave dt out."
+        f"Steps of {h:g} s are {size} long for the model's fastest mode, {damping:.3g} 1/s at t = {t:g} s: {what}. "
+        f"Choose dt below {1 / damping:.1g} s, an implicit solver, or leave dt out."
     )
+
+
+def is_rough(x: Float[np.ndarray, "n n_states"]) -> bool:
+    """Whether a state's steps change by much of their size, on average."""
+    if len(x) < POINTS:
+        return False
+    steps = np.diff(x, axis=0)
+    changes = np.abs(np.diff(steps, axis=0)).mean(axis=0)
+    return bool((changes > ROUGH * np.abs(steps).mean(axis=0)).any())
 
 
 def fastest_mode(system: System, values: Values) -> tuple[float, float]:
@@ -74,9 +89,9 @@ def modes(system: System, points: Values) -> NDArray[np.complex128] | None:
     return np.linalg.eigvals(jacobians).astype(complex) if np.isfinite(jacobians).all() else None
 
 
-def warn_of_long_steps(system: System, values: Values, h: float) -> None:
+def warn_of_long_steps(system: System, values: Values, h: float, limit: float = FAR) -> None:
     """Warn of such steps."""
-    if sentence := long_steps(system, values, h):
+    if sentence := long_steps(system, values, h, limit):
         warnings.warn(sentence, stacklevel=user_level())
 
 

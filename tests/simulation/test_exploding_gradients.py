@@ -1,12 +1,15 @@
-"""Steps far outside the solver's region of stability: states stay finite, derivatives do not."""
+"""Steps outside the solver's region of stability: states stay finite, derivatives do not; or both are wrong."""
 
 import warnings
 
+import diffrax as dfx
 import jax
 import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.simulation.fixed_steps import stability_limit
+from acausal.simulation.solvers import RK4
 from tests.support.friction import sticking
 
 
@@ -45,3 +48,36 @@ def test_right_gradients_are_taken_without_a_word():
     h = 0.05
     quotient = (end(50.0 + h, dt=1e-5) - end(50.0 - h, dt=1e-5)) / (2 * h)
     assert float(gradient) == pytest.approx(float(quotient), rel=1e-4)
+
+
+class Saturating(ac.Component):
+    """A speed whose friction is steep at rest, and bounded."""
+
+    push = ac.Input()
+    v = ac.Variable(start=0.0, fixed=True)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.v), self.push - 50 * ac.tanh(8 * self.v))
+
+
+def test_states_that_are_wrong_within_bounds_are_warned_of():
+    system = ac.compile(Saturating())
+
+    def run(**options):
+        return ac.simulate(system, 1.0, inputs={"push": lambda t: 40 * np.sin(7 * t)}, **options)[
+            "v"
+        ]
+
+    right = run(saveat=np.linspace(0.0, 1.0, 101))
+    for solver in ("euler", "heun", "rk4"):
+        with pytest.warns(UserWarning, match="0.01 s are too long .* 400 1/s at t = 0 s: states"):
+            wrong = run(dt=0.01, solver=solver)
+        assert np.max(np.abs(wrong - right)) > 0.05
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        np.testing.assert_allclose(run(dt=0.002, solver="heun")[::5], right, atol=2e-3)
+
+
+def test_limits_of_stability_are_those_of_the_schemes():
+    for scheme, limit in ((dfx.Euler(), 2.0), (dfx.Heun(), 2.0), (RK4(), 2.785)):
+        assert stability_limit(scheme) == pytest.approx(limit, abs=0.02)
