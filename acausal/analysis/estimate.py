@@ -140,7 +140,8 @@ def estimate(
     walk = jnp.concatenate([size / jnp.sqrt(path.t[-1] - path.t[0]), jnp.zeros(len(drift))])
 
     if isinstance(how, MovingHorizon):
-        how = MovingHorizon(window, _bounds(bounds, names, jnp.sqrt(jnp.diag(start.covariance))))
+        deviation = jnp.sqrt(jnp.diag(start.covariance))
+        how = how._replace(window=window, bounds=_bounds(bounds, names, deviation))
     elif bounds is not None:
         raise DataError(f"bounds: method='{method}' keeps none; take method='mhe'.")
 
@@ -181,7 +182,7 @@ def filter_for(system: System, method: str, what: str) -> Filter | MovingHorizon
     if method not in METHODS:
         raise DataError(f"No method {shown(method)}: {nearest(method, METHODS)}")
     return {
-        "ekf": EKF, "ukf": Linearized(by_points), "enkf": EnsembleFilter(), "mhe": MovingHorizon(2),
+        "ekf": EKF, "ukf": Linearized(by_points), "enkf": EnsembleFilter(), "mhe": MovingHorizon(),
     }[method]  # fmt: skip
 
 

@@ -64,7 +64,7 @@ class MovingHorizon(NamedTuple):
         bounds: of the numbers to estimate, if there are some.
     """
 
-    window: int
+    window: int = 20
     bounds: Bounds | None = None
 
     def run(

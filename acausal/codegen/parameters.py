@@ -247,12 +247,9 @@ def _by_expression(
         if expression.has(sp.zoo, sp.nan, sp.oo):
             name = model.layout.parameter(binding.target)
             raise DeclarationError(f"'{name}': its expression divides by a parameter that is zero")
-        present = (
-            expression.free_symbols
-        )  # without zeros, expressions of unlike arguments can be the same
-        kept = [
-            (s, a) for s, a in zip(binding.symbols, binding.arguments, strict=True) if s in present
-        ]
+        # without zeros, expressions of unlike arguments can be the same
+        given = zip(binding.symbols, binding.arguments, strict=True)
+        kept = [(s, a) for s, a in given if s in expression.free_symbols]
         symbols, arguments = tuple(s for s, _ in kept), tuple(a for _, a in kept)
         own = Binding(binding.target, expression, symbols, arguments)
         found.setdefault((expression, symbols), []).append(own)

@@ -84,13 +84,9 @@ class Connecting(Interpreter):
 
     def _relate(self, left: Component, right: Component) -> None:
         """Connect redundant records of two connectors."""
-        build: Any = self.frame.build
-        owner = around(build, left._node, right._node)
         edge = Edge((left, right), self.at)
-        owner.edges.append(edge)
-        while build.above is not None:
-            build = build.above
-        build.graph.edges.append(edge)
+        around(self.frame.build, left._node, right._node).edges.append(edge)
+        overconstrained.graph_of(self).edges.append(edge)
 
     def related(self, edge: Edge) -> Iterator[Eq]:
         """The equations of a connection of redundant records."""

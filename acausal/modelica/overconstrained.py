@@ -5,7 +5,6 @@ The virtual connection graph and its spanning trees are those of the Modelica sp
 
 from __future__ import annotations
 
-from collections import deque
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -43,51 +42,34 @@ class Graph:
 
     def cut(self) -> None:
         """Cut connections until each tree has one root and no loop, and measure how far the records are from it."""
-        above: dict[Component, Component] = {}
+        if not (self.roots or self.potential or self.branches or self.edges):
+            return
+        import networkx as nx  # most models have no such connections, and it takes its time to import
 
-        def top(node: Component) -> Component:
-            while (parent := above.setdefault(node, node)) is not node:
-                above[node] = above.setdefault(parent, parent)
-                node = parent
-            return node
-
-        neighbours: dict[Component, list[Component]] = {}
-
-        def join(a: Component, b: Component) -> None:
-            neighbours.setdefault(a, []).append(b)
-            neighbours.setdefault(b, []).append(a)
-            above[top(a)] = top(b)
-
-        for a, b in self.branches:
-            join(a, b)
-        rooted = {top(node) for node in self.roots}
+        candidates = [node for _, node in sorted(self.potential, key=lambda item: item[0])]
+        forest: Any = nx.Graph(self.branches)
+        forest.add_nodes_from([*self.roots, *candidates, *(n for e in self.edges for n in e.ends)])
+        trees: Any = nx.utils.UnionFind(forest)
+        for pair in self.branches:
+            trees.union(*pair)
+        rooted = {trees[node] for node in self.roots}
         for edge in self.edges:
-            first, second = map(top, edge.ends)
+            first, second = (trees[node] for node in edge.ends)
             edge.cut = first is second or (first in rooted and second in rooted)
             if not edge.cut:
-                join(*edge.ends)
+                forest.add_edge(*edge.ends)
+                trees.union(first, second)
                 if first in rooted or second in rooted:
-                    rooted.add(top(second))
-        candidates = [node for _, node in sorted(self.potential, key=lambda item: item[0])]
-        for node in (*self.roots, *candidates, *above):
+                    rooted.add(trees[first])
+        for node in (*self.roots, *candidates, *forest):
             if node not in self.depth:
-                self._measure(node, neighbours)
-
-    def _measure(self, root: Component, neighbours: dict[Component, list[Component]]) -> None:
-        self.depth[root] = 0
-        waiting = deque([root])
-        while waiting:
-            node = waiting.popleft()
-            for other in neighbours.get(node, ()):
-                if other not in self.depth:
-                    self.depth[other] = self.depth[node] + 1
-                    waiting.append(other)
+                self.depth |= nx.single_source_shortest_path_length(forest, node)
 
 
 def note(self: Evaluator, call: Call) -> None:
     """Take what ``Connections.branch``, ``root`` or ``potentialRoot`` states into the graph of the model."""
     word = call.function.words[-1]
-    graph, given = _graph(self), _records(self, call)
+    graph, given = graph_of(self), _records(self, call)
     if word == "branch":
         graph.branches.append((given[0], given[1]))
     elif word == "root":
@@ -105,12 +87,13 @@ def is_root(self: Evaluator, call: Call) -> bool:
 
 def is_rooted(self: Evaluator, call: Call) -> bool:
     """Whether a record is nearer to the root than the one to which its component relates it."""
-    depth, graph, node = _depth(self, call), _graph(self), _records(self, call)[0]
+    depth, graph, node = _depth(self, call), graph_of(self), _records(self, call)[0]
     pairs = [pair for pair in graph.branches if node in pair]
     return all(depth <= graph.depth[end] for pair in pairs for end in pair)
 
 
-def _graph(self: Evaluator) -> Graph:
+def graph_of(self: Evaluator) -> Graph:
+    """The graph of the whole model."""
     build: Any = self.frame.build
     if build is None:
         raise self.wrong("this stands in equations of a model only")
@@ -120,7 +103,7 @@ def _graph(self: Evaluator) -> Graph:
 
 
 def _depth(self: Evaluator, call: Call) -> int:
-    return _graph(self).depth.get(_records(self, call)[0], 0)
+    return graph_of(self).depth.get(_records(self, call)[0], 0)
 
 
 def _records(self: Evaluator, call: Call) -> list[Component]:

@@ -69,9 +69,10 @@ def simulate_fixed(
     else:
         last = evaluate_all(run.inputs, array(ends[-1:]))  # an input that is held has jumped there
         u = array(numpy_or_jax(samples, last).concatenate([samples.start, last])[rows])
-    rough = not traced(x) and is_rough(np.asarray(x))
+    is_explicit = isinstance(solver, solvers.EXPLICIT)
+    rough = is_explicit and not traced(x) and is_rough(np.asarray(x))
     x = x if saved is None else select(x, rows)
-    if (rough or traced(x)) and isinstance(solver, solvers.EXPLICIT):
+    if is_explicit and (rough or traced(x)):
         limit = stability_limit(scheme) if rough else FAR
         _check_steps(run.system, start._replace(t=t, x=x, u=u), float(h), limit)
     t, x, u = cast((t, x, u), dtype)

@@ -26,6 +26,9 @@ LARGEST = 50
 FAR = 10.0
 """Steps times the rate of a damped mode that are far outside the region of stability of every explicit solver."""
 
+BLOCK = 64
+"""Rows of each of `POINTS` blocks in which a trajectory's steps are compared, so that long ones cost no more."""
+
 ROUGH = 0.3
 """Part of its steps by which a state's steps change, where these may be too long: it is resolved by few of them."""
 
@@ -55,9 +58,11 @@ def is_rough(x: Float[np.ndarray, "n n_states"]) -> bool:
     """Whether a state's steps change by much of their size, on average."""
     if len(x) < POINTS:
         return False
-    steps = np.diff(x, axis=0)
-    changes = np.abs(np.diff(steps, axis=0)).mean(axis=0)
-    return bool((changes > ROUGH * np.abs(steps).mean(axis=0)).any())
+    length = min(BLOCK, len(x))
+    first = np.unique(np.linspace(0, len(x) - length, POINTS).astype(int))
+    steps = np.diff(x[first[:, None] + np.arange(length)], axis=1)
+    changes = np.abs(np.diff(steps, axis=1)).mean(axis=(0, 1))
+    return bool((changes > ROUGH * np.abs(steps).mean(axis=(0, 1))).any())
 
 
 def fastest_mode(system: System, values: Values) -> tuple[float, float]:

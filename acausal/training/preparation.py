@@ -37,8 +37,8 @@ class Training:
         options: how to train.
         seeds: one for each training; ``params``: the parameters where each starts.
         automatic: what was chosen from the data, with ``strategy="auto"``.
-        arguments: those of `prepare`. What follows from them is made again by a process that receives a training,
-            because optimizers are closures, which cannot be pickled.
+        arguments: those of `prepare`, by name. What follows from them is made again by a process that receives a
+            training, because optimizers are closures, which cannot be pickled.
     """
 
     problem: Problem
@@ -49,13 +49,13 @@ class Training:
     seeds: Sequence[int]
     params: Sequence[Mapping[str, Any]]
     automatic: Automatic | None
-    arguments: tuple[Any, ...]
+    arguments: Mapping[str, Any]
 
     def __reduce__(self) -> tuple[Any, ...]:
         """As the arguments that it was prepared from; options of the process that displays and writes stay there."""
-        system, data, targets, options, *rest = self.arguments
-        sent = replace(options, executor=None, progress=False, checkpoint=None, resume=False)
-        return _prepared, (system, data, targets, sent, *rest)
+        here = {"executor": None, "progress": False, "checkpoint": None, "resume": False}
+        sent = replace(self.arguments["options"], **here)
+        return _prepared, ({**self.arguments, "options": sent},)
 
     def without(self, part: LeftOut) -> Training:
         """The training of a fold; its program is that of the others, because its trainers are."""
@@ -97,7 +97,9 @@ def prepare(
     ]
     system = system.watching(_trained_numbers(options))
     given = records_of(data)
-    arguments = system, given, targets, options, seeds, params
+    arguments: dict[str, Any] = {
+        "system": system, "data": given, "targets": targets, "options": options, "seeds": seeds, "params": params
+    }  # fmt: skip
     records = {n: record.for_system(system) for n, record in given.items()}
     kept = split(records, options.validation)
     names = names_in(targets, "targets")
@@ -117,18 +119,11 @@ def prepare(
     )
 
 
-def _prepared(
-    system: System,
-    data: RecordsLike,
-    targets: str | Sequence[str],
-    options: FitOptions,
-    seeds: Sequence[int],
-    params: Sequence[Mapping[str, Any] | None],
-) -> Training:
+def _prepared(arguments: Mapping[str, Any]) -> Training:
     """The same in a process that has received the arguments; the one that sent them has warned already."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return prepare(system, data, targets, options, seeds=seeds, params=params)
+        return prepare(**arguments)
 
 
 def _trained_numbers(options: FitOptions) -> tuple[str, ...]:

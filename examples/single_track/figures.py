@@ -41,9 +41,8 @@ def page(path: Path, found: study.Study) -> None:
     shown.section("A manoeuvre that was held out")
     moving = found.solutions["learned tyres"]["lane change"]
     shown.add(moving.animation(trace="body", caption="The lane change with the learned tyres."))
-    shown.figure(
-        acceleration(found), "Lateral acceleration in both manoeuvres.", path.parent / "held.png"
-    )  # fmt: skip
+    caption = "Lateral acceleration in both manoeuvres."
+    shown.figure(acceleration(found), caption, path.parent / "held.png")
     shown.write(path)
 
 

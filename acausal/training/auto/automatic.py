@@ -138,7 +138,8 @@ def automatic(
         explains = start.loss < NOTHING * np.sqrt(len(targets))
         lengths = () if explains else (rows // 4, rows // 16, 2 * PIECE)
         for first in (n for n in lengths if n >= 2 * PIECE):
-            short = _start(problem_of(_beginnings(part, first), step), shapes)
+            begin = {n: _first_rows(data, first) for n, data in part.items()}
+            short = _start(problem_of(begin, step), shapes)
             if short.loss < start.loss:
                 start, begun = short, first
             if short.loss < level:
@@ -172,14 +173,13 @@ def _part(records: dict[str, Data], most: int) -> dict[str, Data]:
         left = most - sum(len(d) for d in found.values())
         if left < 2:
             break
-        found[name] = data if len(data) <= left else data.between(data.time[0], data.time[left - 1])
+        found[name] = _first_rows(data, left)
     return {n: found[n] for n in records if n in found}
 
 
-def _beginnings(data: dict[str, Data], rows: int) -> dict[str, Data]:
-    """So many first rows of every record."""
-    ends = {n: d.time[min(rows, len(d)) - 1] for n, d in data.items()}
-    return {n: d.between(d.time[0], ends[n]) for n, d in data.items()}
+def _first_rows(data: Data, rows: int) -> Data:
+    """So many first rows of a record, or all of a shorter one."""
+    return data if len(data) <= rows else data.between(data.time[0], data.time[rows - 1])
 
 
 def _pieces(

@@ -94,7 +94,7 @@ def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
         own = _decades(base, places[name], shapes[name])
         losses = found.at(own)[0]
         kept: list[np.ndarray] = []
-        for place in places[name]:  # the best of every slope, and of the offset
+        for place in places[name]:  # the best points of every slope, and of the offset
             rows = [k for k, point in enumerate(own) if point[place] != base[place]]
             kept += [own[rows[k]] - base for k in _unlike(losses[rows], most)]
         best[name] = kept
