@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, cast
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -13,7 +12,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float, PRNGKeyArray
 from scipy.optimize import minimize
 
-from acausal._jax import as_key, is_number, need_double_precision, traced
+from acausal._jax import as_key, compiled, is_number, need_double_precision, traced
 from acausal.analysis.estimation import Estimation
 from acausal.analysis.filtering import (
     Belief,
@@ -305,7 +304,7 @@ def _sizes(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, " n
     return jax.lax.stop_gradient(jnp.where(good, half, nominal).at[guesses].set(0.0))
 
 
-@eqx.filter_jit
+@compiled
 def _open_loop(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, "n n_states"]:
     model = path.model
     start = Values(path.t[0], x0, path.u[0], model.packed)
@@ -348,7 +347,7 @@ def _with_members(start: Belief, count: int, key: PRNGKeyArray) -> Belief:
     return start._replace(members=members)
 
 
-@eqx.filter_jit
+@compiled
 def _filtered(
     how: Filter | MovingHorizon,
     path: AlongRecord,

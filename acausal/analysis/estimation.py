@@ -6,13 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import traced
+from acausal._jax import compiled, traced
 from acausal.analysis.filtering import Filtered, Measured, smoothed
 from acausal.analysis.tracking import AlongRecord
 from acausal.codegen import Packed, Values
@@ -167,12 +166,12 @@ def _values(
     return Values(path.t, mean[:, :n], path.u, packed), own
 
 
-@eqx.filter_jit
+@compiled
 def _closed(path: AlongRecord, mean: Float[Array, "n m"]) -> Float[Array, "n m"]:
     return jax.vmap(path.model.closed)(path.t, mean, path.u)
 
 
-@eqx.filter_jit
+@compiled
 def _variances(
     path: AlongRecord,
     names: tuple[str, ...],
@@ -189,4 +188,4 @@ def _variances(
     return jax.vmap(one)(path.t, z, path.u, covariance)
 
 
-_smoothed = eqx.filter_jit(smoothed)
+_smoothed = compiled(smoothed)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from acausal._jax import known, without_derivatives
+from acausal._jax import compiled, known, without_derivatives
 from acausal.codegen import Values
 from acausal.errors import InitializationError, listing
 from acausal.events.event_formulas import Events
@@ -34,7 +33,7 @@ CIRCLE = 10
 """After so many iterations what changes is taken to be part of a circle."""
 
 
-@eqx.filter_jit
+@compiled
 def _begun(events: Events, at: Values) -> Float[Array, " n_discrete"]:
     """Discrete variables that agree with the initial values, as they are before the first event.
 
@@ -47,7 +46,7 @@ def _begun(events: Events, at: Values) -> Float[Array, " n_discrete"]:
     return jnp.where(events.exact, d, smooth)
 
 
-@eqx.filter_jit
+@compiled
 def _fire_at_start(events: Events, at: Values) -> After:
     """What happens at the first time, once initial values are found; with derivatives in both modes.
 

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import array
+from acausal._jax import array, compiled
 from acausal.codegen import (
     Arguments,
     Formula,
@@ -144,7 +143,7 @@ class Conditions(LeavesCaches):
     @cached_property
     def _computed(self) -> Callable[[Packed, tuple[tuple[int, int], ...]], Array]:
         """`_compute`, compiled once for each choice of variables."""
-        return eqx.filter_jit(self._compute)
+        return compiled(self._compute)
 
     def _compute(self, packed: Packed, members: tuple[tuple[int, int], ...]) -> Array:
         """Start values of which some are expressions; those of one expression side by side."""

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -15,7 +14,7 @@ import optimistix as optx
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import array, is_number, is_real, traced, without_derivatives
+from acausal._jax import array, compiled, is_number, is_real, traced, without_derivatives
 from acausal.codegen import (
     Dense,
     Packed,
@@ -286,7 +285,7 @@ class Initializer(LeavesCaches):
     def _closed(self) -> Callable[[Values], Array]:
         """What `closed` computes, compiled once."""
 
-        @eqx.filter_jit
+        @compiled
         def closed(at: Values) -> Array:
             own, given = jnp.split(at.x, [self.reduced.n_independent])
             start = self.conditions.starts(at.packed)[len(own) :]
@@ -307,7 +306,7 @@ class Initializer(LeavesCaches):
     @cached_property
     def _satisfied(self) -> Callable[[Plan, Values], tuple[Array, Array, Array]]:
         """`_satisfy`, compiled once for every plan."""
-        return eqx.filter_jit(self._satisfy)
+        return compiled(self._satisfy)
 
     def _satisfy(self, plan: Plan, start: Values) -> tuple[Array, Array, Array]:
         """States that satisfy the conditions, the residuals, and their Jacobian.

@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import diffrax as dfx
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 from numpy.typing import NDArray
 
-from acausal._jax import array, cast, known, numpy_or_jax, select, traced
+from acausal._jax import array, cast, compiled, known, numpy_or_jax, select, traced
 from acausal.codegen import Packed, Values
 from acausal.errors import SimulationError
 from acausal.simulation import solvers
@@ -99,7 +98,7 @@ def are_split(run: Run, ends: Float[np.ndarray, " n_ends"], adjoint: object) -> 
     return bool(run.system.edges) and bool(_off_grid(run.system, packed, jnp.asarray(ends)))
 
 
-@eqx.filter_jit
+@compiled
 def _off_grid(system: System, packed: Packed, ends: Float[Array, " n_ends"]) -> Bool[Array, ""]:
     """Whether an edge is not at the end of a step."""
     last = ends[-1]
@@ -117,7 +116,7 @@ def _off_grid(system: System, packed: Packed, ends: Float[Array, " n_ends"]) -> 
     return jax.lax.while_loop(goes_on, following, ends[0]) < last - apart
 
 
-@eqx.filter_jit
+@compiled
 def _scan_steps(
     system: System,
     start: Values,

@@ -13,7 +13,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import array, is_real, traced
+from acausal._jax import array, compiled, is_real, traced
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
 from acausal.modeling import names_in
@@ -305,7 +305,7 @@ def evaluate_all(
     return _evaluate_all(functions, t)
 
 
-@eqx.filter_jit
+@compiled
 def _evaluate_all(
     functions: tuple[TimeFunction, ...], t: Float[Array, " n"]
 ) -> Float[Array, "n n_inputs"]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -12,7 +11,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
-from acausal._jax import traced
+from acausal._jax import compiled, traced
 from acausal.codegen import Values, said_by_modules
 from acausal.errors import SimulationError
 from acausal.events import COINCIDE, Events, guards
@@ -175,13 +174,13 @@ class Run(NamedTuple):
         return "" if reason is None else f" There {reason}"
 
 
-@eqx.filter_jit
+@compiled
 def _periods(clocks: Events, at: Values) -> Float[Array, " n_clocks"]:
     """How long after a tick each clock ticks again."""
     assert at.d is not None
     return guards(clocks, at) - guards(clocks, at._replace(d=at.d + 1))
 
 
-@eqx.filter_jit
+@compiled
 def _jacobian(system: System, at: Values) -> Float[Array, "n_states n_states"]:
     return jax.jacfwd(lambda x: system.rates(at._replace(x=x)))(at.x)

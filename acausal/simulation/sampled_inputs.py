@@ -12,7 +12,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import array, numpy_or_jax, traced
+from acausal._jax import array, compiled, numpy_or_jax, traced
 from acausal.data import FRACTIONS, Signal, polynomial_coefficients
 from acausal.simulation.inputs import Constant, TimeFunction, evaluate_all
 from acausal.simulation.step_grid import ON_GRID
@@ -147,7 +147,7 @@ def _through(values: Float[Array, "n n_points"]) -> _Sampled:
     return _Sampled(start, end, polynomial_coefficients(start, end, inner))
 
 
-@eqx.filter_jit
+@compiled
 def _pieces(signal: Signal, around: ArrayLike, t: ArrayLike) -> Float[Array, " n"]:
     """A signal's pieces around many times, at as many others."""
     return jax.vmap(signal.piece)(jnp.asarray(around), jnp.asarray(t))

@@ -10,13 +10,12 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import select, traced
+from acausal._jax import compiled, select, traced
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest
 from acausal.files import need_path, write_files
@@ -313,7 +312,7 @@ class Solution(ByName):
         return f"Solution({shape}, {len(self.names)} variables)"
 
 
-@eqx.filter_jit
+@compiled
 def _read_all(system: System, names: tuple[str, ...], values: Values) -> list[Float[Array, " n"]]:
     drift = values.packed.values.ndim == 2
     points = (values.t, values.x, values.u, values.d, values.packed.values if drift else None)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING
 
-import equinox as eqx
 import jax
 import numpy as np
 from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
+from acausal._jax import compiled
 from acausal.codegen import Values
 from acausal.errors import user_level
 
@@ -100,7 +100,7 @@ def warn_of_long_steps(system: System, values: Values, h: float, limit: float = 
         warnings.warn(sentence, stacklevel=user_level())
 
 
-@eqx.filter_jit
+@compiled
 def _jacobians(system: System, points: Values) -> Float[Array, "n n_states n_states"]:
     def jacobian(at: Values) -> Float[Array, "n_states n_states"]:
         return jax.jacfwd(lambda x: system.rates(at._replace(x=x)))(at.x)

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import is_number, levenberg_marquardt, value_and_jacobian
+from acausal._jax import compiled, is_number, levenberg_marquardt, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, listing, nearest, shown
 from acausal.jobs import Workers, blocks, need_workers, on_workers
@@ -235,7 +235,7 @@ def _found(own: Own, certainty: Float[np.ndarray, "N n_targets"]) -> Float[np.nd
     return np.asarray(state.point)
 
 
-@eqx.filter_jit
+@compiled
 def _update(
     own: Own,
     params: dict[str, Any],
@@ -307,7 +307,7 @@ def _deviations(
     return np.sqrt(variance + np.square(noise))
 
 
-@eqx.filter_jit
+@compiled
 def _effects(
     own: Own,
     params: dict[str, Any],

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import array, known, two_modes
+from acausal._jax import array, compiled, known, two_modes
 from acausal.codegen import StateJacobian
 from acausal.errors import SimulationError
 from acausal.simulation.log import Log
@@ -87,7 +87,7 @@ def _automatic(problem: Problem, start: Start, jacobian: StateJacobian, forward:
     return Solved(joined, name, jnp.where(goes_on, first.t, jnp.inf))
 
 
-@eqx.filter_jit
+@compiled
 def _run(
     method: Method | Paced, problem: Problem, start: Start, until_stiff: bool, forward: bool
 ) -> Found:

@@ -11,13 +11,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Float
 
+from acausal._jax import compiled
 from acausal.networks import Affine, BesideLinear, BesideQuadratic, Shape
 from acausal.simulation import EXPLICIT
 from acausal.training.objective.problem import Problem
@@ -191,7 +191,7 @@ class _Points:
         return np.where(sound, loss, np.inf)[:count], gradient[:count], hessian[:count]
 
 
-@eqx.filter_jit
+@compiled
 def _evaluate(
     objective: Problem, batch: Any, points: Float[Array, "n P"], forward: bool
 ) -> tuple[Array, Array, Array]:

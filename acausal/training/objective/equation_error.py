@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int, PRNGKeyArray
 
+from acausal._jax import compiled
 from acausal.codegen import Values
 from acausal.errors import TrainingError, listing
 from acausal.training.objective.problem import Problem
@@ -111,6 +111,6 @@ def _unseen(objective: EquationError) -> list[str]:
     """Networks and parameters that the loss does not depend on."""
     start = objective.start()
     batch = objective.draw(jax.random.key(0))
-    gradient = eqx.filter_jit(jax.grad(lambda tree: objective.losses(tree, batch)[0]))(start)
+    gradient = compiled(jax.grad(lambda tree: objective.losses(tree, batch)[0]))(start)
     parts: dict[str, Any] = {**gradient.networks, **gradient.modifiers}
     return [n for n, g in parts.items() if not any(bool(a.any()) for a in jax.tree.leaves(g))]

@@ -11,6 +11,7 @@ import jax.numpy as jnp
 from jax.sharding import Mesh
 from jaxtyping import Array, Float, Int, PRNGKeyArray
 
+from acausal._jax import compiled
 from acausal.analysis import arguments
 from acausal.codegen import Values
 from acausal.training.objective.error_laws import LogLikelihood
@@ -273,7 +274,7 @@ class Problem(Simulator):
 
     # -- all records -----------------------------------------------------------------------------------
 
-    @eqx.filter_jit
+    @compiled
     def simulate(self, trainable: Trainable) -> Simulated:
         """One simulation of every record."""
         params = self.assemble(trainable)
@@ -293,7 +294,7 @@ class Problem(Simulator):
         assert found.y is not None
         return Simulated(jnp.zeros(()), found.x, found.y, found.log)
 
-    @eqx.filter_jit
+    @compiled
     def seen(
         self,
         trainable: Trainable,

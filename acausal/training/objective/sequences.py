@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray
 
+from acausal._jax import compiled
 from acausal.errors import DataError, listing
 from acausal.training.objective.records import Records
 
@@ -99,7 +100,7 @@ class Sequences(eqx.Module):
             weight[some.sum() :] = 0.0  # each once
         return replace(self, starts=self.starts[chosen], weight=jnp.asarray(weight))
 
-    @eqx.filter_jit
+    @compiled
     def draw(self, key: PRNGKeyArray) -> Batch:
         """A batch; the same key gives the same batch."""
         for_start, for_points = jax.random.split(key)

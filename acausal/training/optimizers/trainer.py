@@ -18,7 +18,7 @@ import optax
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 
-from acausal._jax import Descent
+from acausal._jax import Descent, compiled
 from acausal.training.optimizers.gradients import (
     Evaluate,
     LossDerivatives,
@@ -116,7 +116,7 @@ def candidates(state: State) -> tuple[PyTree, ...]:
     return state.trainable, known
 
 
-@eqx.filter_jit
+@compiled
 def _best_known(state: State) -> PyTree:
     """The best point of a descent; before the first update its start."""
     point, unravel = ravel_pytree(state.trainable)
@@ -124,7 +124,7 @@ def _best_known(state: State) -> PyTree:
     return unravel(jnp.where(known, state.optimizer.point, point))
 
 
-@eqx.filter_jit
+@compiled
 def advance(
     objective: Objective,
     trainer: Trainer,

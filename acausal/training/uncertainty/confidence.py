@@ -16,13 +16,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import value_and_jacobian
+from acausal._jax import compiled, value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import bounds_of, kept_promises, law_at, output_scale
 from acausal.training.objective.error_laws import LogLikelihood
@@ -442,7 +441,7 @@ def _sensitivity(
 ) -> tuple[Float[np.ndarray, "N n_targets"], Float[np.ndarray, "N n_targets n"]]:
     """The residuals, and the Jacobian of the predictions."""
 
-    @eqx.filter_jit
+    @compiled
     def run(problem: Problem) -> tuple[Array, Array]:
         def predicted(z: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
             return problem.predict(*changed(z))

@@ -1,0 +1,50 @@
+"""Compiled programs: one for each model and shape, of which the last ones are kept."""
+
+from __future__ import annotations
+
+import gc
+import weakref
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal._jax import compiled
+from tests.support.parts import Equations
+
+
+def test_one_program_serves_equal_shapes_and_constants() -> None:
+    traced: list[Any] = []
+
+    @compiled
+    def scaled(x: Any, by: dict[str, Any], n: object = 1) -> Any:
+        traced.append(n)
+        return x * by["a"] * n
+
+    x = jnp.arange(3.0)
+    for n in (2, 2, 2.0, True, 2):
+        np.testing.assert_allclose(scaled(x, {"a": 3.0}, n=n), x * 3 * n)
+    assert len(traced) == 3  # 2, 2.0 and True are equal, but not the same
+    scaled(x[:2], {"a": 3.0}, n=2)
+    scaled(x, {"a": jnp.asarray(3.0)}, n=2)
+    scaled(x, {"a": np.float64(4.0)}, n=2)
+    assert len(traced) == 6
+    grown = jax.grad(lambda x: scaled(x, {"a": 3.0}, n=2).sum())(x)
+    np.testing.assert_allclose(grown, 6.0)
+
+
+def test_models_that_are_gone_leave_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("acausal._jax.programs.MOST", 2)
+    first = None
+    for i in range(4):
+        system = ac.compile(Equations("x", lambda s, i=i: [ac.Eq(ac.der(s.x), -(i + 1.0) * s.x)]))
+        last = ac.simulate(system, 1.0, dt=0.5, solver="euler", x0={"x": 1.0})["x"][-1]
+        assert float(last) == pytest.approx((1 - (i + 1) / 2) ** 2)
+        first = first or weakref.ref(system)
+    del system, last
+    gc.collect()
+    assert first is not None
+    assert first() is None
