@@ -6,7 +6,7 @@ It is asked twice: first which order the ports of a side should have, then with 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -55,6 +55,7 @@ class Question:
         gates: for an opened box, by its number, the places of its ports from -1 at its top to 1.
         trunks: whether the wires of a node leave it on one line.
         stub: how far a wire goes straight on from a port, at least, in pixels.
+        aspect: width over height that rows are folded for; 0 for one row.
     """
 
     def __init__(
@@ -65,9 +66,10 @@ class Question:
         *,
         trunks: bool,
         stub: float = STUB,
+        aspect: float = 0.0,
     ) -> None:
         self.scheme, self.faced, self.gates = scheme, faced, gates
-        self.trunks, self.stub = trunks, stub
+        self.trunks, self.stub, self.aspect = trunks, stub, aspect
         used: list[set[int]] = [set() for _ in scheme.boxes]
         for net in scheme.nets:
             for end in net.ends:
@@ -90,7 +92,8 @@ class Question:
 
     def _ask(self, graph: dict[str, Any]) -> dict[str, Any]:
         spacing = {**OPTIONS["spacing"], "stub": self.stub}
-        return _call(graph, {**OPTIONS, "spacing": spacing})
+        fold = {"viewport_aspect": self.aspect}
+        return _call(graph, {**OPTIONS, "spacing": spacing, "wrap": fold})
 
     # -- the question ----------------------------------------------------------------------------
 
@@ -162,15 +165,26 @@ class Question:
         for (box, side), ends in along.items():
             icon, outside = self.sizes[box].icon, self.sizes[box].outside
             axis = 1 if side in ("left", "right") else 0
-            if box in self.gates:
-                share = icon[1] / outside[1]
-                offsets |= {e: share * self.gates[box][self.scheme.port(e).name] for e in ends}
+            if places := self._places(box, ends):
+                share = icon[axis] / outside[axis]
+                way = -1 if axis == 0 and self.faced.boxes[box].mirrored else 1
+                offsets |= {end: way * share * place for end, place in places.items()}
                 continue
             spread = _spread(len(ends), upright=self.faced.boxes[box].upright)
             order = sorted(ends, key=lambda end: (ends[end], end))
             for end, share in zip(order, spread, strict=True):
                 offsets[end] = share * icon[axis] / outside[axis]
         return offsets
+
+    def _places(self, box: int, ends: Iterable[End]) -> dict[End, float]:
+        """Places of the ports of a side, if its frame or its icon has one for each of them."""
+        if self.faced.boxes[box].upright:
+            return {}
+        known = self.gates.get(box, self.scheme.boxes[box].icon.places)
+        names = {end: self.scheme.port(end).name for end in ends}
+        return (
+            {e: known[n] for e, n in names.items()} if known.keys() >= set(names.values()) else {}
+        )
 
     # -- the answer ------------------------------------------------------------------------------
 

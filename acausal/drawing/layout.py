@@ -23,6 +23,12 @@ LONGER = 15.0
 HABIT = 6
 """How many more bends a drawing may have that begins with signals, as readers expect."""
 
+WIDE = 1000.0
+"""A wider drawing is folded into rows, in pixels."""
+
+FOLDS = (3.0, 2.0, 1.5)
+"""Width over height that is tried then."""
+
 ROOM = 16.0
 """Room in the frame of an opened component, in pixels."""
 
@@ -58,21 +64,26 @@ def _best(scheme: Scheme, gates: dict[int, dict[str, float]]) -> Placed:
     """The best of several drawings of one level."""
     if len(scheme.boxes) > LARGE:
         return Question(scheme, face(scheme), gates, trunks=True).placed()
-    found: list[tuple[tuple[float, ...], Placed]] = []
+    found: list[tuple[tuple[float, ...], Placed, Faced, bool]] = []
     for signals_first in (True, False):
         faced = face(scheme, signals_first=signals_first)
         for trunks in (True, False):
-            placed = _improved(scheme, faced, gates, trunks)
+            placed, turned_to = _improved(scheme, faced, gates, trunks)
             crossings, bends, length = _cost(placed)
-            found.append(((crossings, bends + (0 if signals_first else HABIT), length), placed))
+            cost = (crossings, bends + (0 if signals_first else HABIT), length)
+            found.append((cost, placed, turned_to, trunks))
         if not any(net.signal for net in scheme.nets):
             break
-    return min(found, key=lambda drawing: drawing[0])[1]
+    _, best, faced, trunks = min(found, key=lambda drawing: drawing[0])
+    if best.bounds.width <= WIDE:
+        return best
+    folded = (Question(scheme, faced, gates, trunks=trunks, aspect=a).placed() for a in FOLDS)
+    return min(best, *folded, key=lambda placed: (placed.flaws, max(placed.bounds.width, WIDE)))
 
 
 def _improved(
     scheme: Scheme, faced: Faced, gates: dict[int, dict[str, float]], trunks: bool
-) -> Placed:
+) -> tuple[Placed, Faced]:
     """A drawing whose boxes are turned, one after the other, while that makes crossings fewer."""
     best = Question(scheme, faced, gates, trunks=trunks).placed()
     if best.flaws:
@@ -86,7 +97,7 @@ def _improved(
         trial = Question(scheme, turned(faced, turn), gates, trunks=trunks).placed()
         if _cost(trial) < _cost(best):
             best, faced = trial, turned(faced, turn)
-    return best
+    return best, faced
 
 
 def _cost(placed: Placed) -> tuple[int, int, float]:

@@ -22,7 +22,7 @@ class CombiTable1Ds(PartialColumns):
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
 
-    ICON = icons.LOOKUP
+    ICON = icons.marked(icons.LOOKUP, "1s")
 
     u = ac.Input(doc="argument")
     y = ac.Output(shape="nout", doc="values")
@@ -43,7 +43,7 @@ class CombiTable1Dv(PartialColumns, MIMOs):
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
 
-    ICON = icons.LOOKUP
+    ICON = icons.marked(icons.LOOKUP, "1v")
 
     @property
     def n(self) -> int:
@@ -110,6 +110,8 @@ class CombiTable2Ds(SI2SO, _Table2D):
     ``NoExtrapolation``, which both hold the values at the border.
     """
 
+    ICON = icons.marked(icons.LOOKUP, "2s")
+
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.surface(self.u1, self.u2))
 
@@ -119,6 +121,8 @@ class CombiTable2Dv(MI2MO, _Table2D):
 
     See `CombiTable2Ds`.
     """
+
+    ICON = icons.marked(icons.LOOKUP, "2v")
 
     def equations(self) -> Iterator[ac.Eq]:
         for y, u1, u2 in zip(self.y, self.u1, self.u2, strict=True):

@@ -31,6 +31,8 @@ class TableData(ac.Component):
     after ``nHeaderLines`` lines, or a ``.mat`` file of MATLAB up to version 7.
     """
 
+    ICON = icons.block("data")
+
     __modelica__ = None
 
     FORM: ClassVar = ("[[t, y, ...], ...]", (1, 2))
@@ -155,6 +157,8 @@ class CombiTimeTable(PartialColumns, MO, _TimeTable):
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
 
+    ICON = icons.marked(icons.TABLE, "n")
+
     timeEvents = ac.Option(
         "Always", choices=_TIME_EVENTS, doc="where steps end in models with events"
     )
@@ -193,7 +197,7 @@ class SampledSignal(SO):
     The samples are a module, ``signal``, among the model's parameters.
     """
 
-    ICON = icons.TABLE
+    ICON = icons.SAMPLES
 
     __modelica__ = None
 

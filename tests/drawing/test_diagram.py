@@ -96,6 +96,12 @@ def test_sub_models_open() -> None:
     assert "controller.pi" in attributes(alone, "component")
 
 
+def test_at_depth_zero_a_model_is_one_box() -> None:
+    drawing = ac.diagram(Drive().controller, depth=0)
+    assert attributes(drawing, "component") == ["controller"]
+    assert attributes(ac.diagram(el.Resistor(R=1.0), depth=0), "connection") == []
+
+
 def test_wires_of_an_opened_component_go_on_inside_it() -> None:
     placed = ac.diagram(Drive(), depth=2).placed
     (box,) = (box for box in placed.boxes if box.inner is not None)
@@ -160,9 +166,9 @@ def test_only_components_are_drawn(model: object) -> None:
         ac.diagram(model)
 
 
-@pytest.mark.parametrize("depth", [0, -1, 1.5, True, "2"])
-def test_a_depth_is_a_whole_number_from_one(depth: object) -> None:
-    with pytest.raises(ac.ModelError, match=r"depth=.*; give a whole number, 1 or more"):
+@pytest.mark.parametrize("depth", [-1, 1.5, True, "2"])
+def test_a_depth_is_a_whole_number(depth: object) -> None:
+    with pytest.raises(ac.ModelError, match=r"depth=.*; give a whole number, 0 or more"):
         ac.diagram(ac.Component(), depth=depth)
 
 

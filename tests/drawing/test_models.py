@@ -7,6 +7,7 @@ from collections.abc import Callable
 import pytest
 
 import acausal as ac
+from acausal.drawing.layout import WIDE
 from examples.battery_cell.model import Cell
 from examples.battery_pack.model import Pack
 from examples.campaign.model import unknown
@@ -49,6 +50,17 @@ def test_a_gallery_model_is_drawn_well(name: str) -> None:
     placed = drawn(name).placed
     assert not list(placed.overlaps())
     assert placed.crossings <= GALLERY[name][1]
+
+
+@pytest.mark.parametrize("name", [*GALLERY, *PUBLISHED])
+def test_no_name_is_touched(name: str) -> None:
+    assert not drawn(name).placed.covered
+
+
+def test_a_servo_is_folded_into_rows() -> None:
+    placed = drawn("emps").placed
+    assert placed.bounds.width <= WIDE
+    assert placed.bounds.height > 300
 
 
 def test_wires_keep_clear_of_what_they_do_not_belong_to() -> None:
