@@ -167,7 +167,8 @@ class Question:
             axis = 1 if side in ("left", "right") else 0
             if places := self._places(box, ends):
                 share = icon[axis] / outside[axis]
-                way = -1 if axis == 0 and self.faced.boxes[box].mirrored else 1
+                facing = self.faced.boxes[box]
+                way = -1 if (facing.mirrored, facing.flipped)[axis] else 1
                 offsets |= {end: way * share * place for end, place in places.items()}
                 continue
             spread = _spread(len(ends), upright=self.faced.boxes[box].upright)

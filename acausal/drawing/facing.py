@@ -23,12 +23,14 @@ class Facing:
         mirrored: whether left and right are exchanged.
         upright: whether an element that usually lies stands.
         place: its position from left to right, as a number of steps.
+        flipped: whether top and bottom are exchanged.
     """
 
     sides: Mapping[int, Side]
     mirrored: bool
     upright: bool
     place: float
+    flipped: bool = False
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ LONGER = 15.0
 """Another length of straight wire at a port, which makes some wires take another way, in pixels."""
 
 HABIT = 6
-"""How many more bends a drawing may have that begins with signals, as readers expect."""
+"""How many more bends a drawing may have that begins as readers expect: with a source of voltage, else with signals."""
 
 WIDE = 1000.0
 """A wider drawing is folded into rows, in pixels."""
@@ -65,12 +65,14 @@ def _best(scheme: Scheme, gates: dict[int, dict[str, float]]) -> Placed:
     if len(scheme.boxes) > LARGE:
         return Question(scheme, face(scheme), gates, trunks=True).placed()
     found: list[tuple[tuple[float, ...], Placed, Faced, bool]] = []
+    powered = any(box.icon.source and _begins(box) for box in scheme.boxes)
     for signals_first in (True, False):
         faced = face(scheme, signals_first=signals_first)
         for trunks in (True, False):
             placed, turned_to = _improved(scheme, faced, gates, trunks)
             crossings, bends, length = _cost(placed)
-            cost = (crossings, bends + (0 if signals_first else HABIT), length)
+            usual = signals_first != powered
+            cost = (crossings, bends + (0 if usual else HABIT), length)
             found.append((cost, placed, turned_to, trunks))
         if not any(net.signal for net in scheme.nets):
             break
@@ -79,6 +81,11 @@ def _best(scheme: Scheme, gates: dict[int, dict[str, float]]) -> Placed:
         return best
     folded = (Question(scheme, faced, gates, trunks=trunks, aspect=a).placed() for a in FOLDS)
     return min(best, *folded, key=lambda placed: (placed.flaws, max(placed.bounds.width, WIDE)))
+
+
+def _begins(box: Box) -> bool:
+    """Whether what flows through a model comes from here: two ends, and no signal that says how much."""
+    return [port.kind for port in box.ports if port.kind != "output"] == ["connector", "connector"]
 
 
 def _improved(

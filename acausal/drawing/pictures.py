@@ -59,12 +59,13 @@ def _with_open(placed: PlacedBox) -> PlacedBox:
         for number in waiting
         if crowd.count(placed.side(number)) == 1 or drawn.ports[number].name in drawn.icon.places
     }
+    right, down = -1 if placed.facing.mirrored else 1, -1 if placed.facing.flipped else 1
     ports = {
         number: {
-            "left": (icon.left, icon.y + place * icon.height / 2),
-            "right": (icon.right, icon.y + place * icon.height / 2),
-            "top": (icon.x + place * icon.width / 2, icon.top),
-            "bottom": (icon.x + place * icon.width / 2, icon.bottom),
+            "left": (icon.left, icon.y + down * place * icon.height / 2),
+            "right": (icon.right, icon.y + down * place * icon.height / 2),
+            "top": (icon.x + right * place * icon.width / 2, icon.top),
+            "bottom": (icon.x + right * place * icon.width / 2, icon.bottom),
         }[placed.side(number)]
         for number, place in places.items()
     }
@@ -126,9 +127,8 @@ def _turn(placed: PlacedBox) -> tuple[str, tuple[int, int, int, int]]:
     if placed.facing.upright:
         down = placed.ports[min(placed.ports)][1] < placed.icon.y
         return (" rotate(90)", (0, -1, 1, 0)) if down else (" rotate(-90)", (0, 1, -1, 0))
-    if placed.facing.mirrored:
-        return " scale(-1 1)", (-1, 0, 0, 1)
-    return "", (1, 0, 0, 1)
+    x, y = -1 if placed.facing.mirrored else 1, -1 if placed.facing.flipped else 1
+    return "" if x == y == 1 else f" scale({x} {y})", (x, 0, 0, y)
 
 
 def _frame(placed: PlacedBox) -> Iterator[str]:
@@ -174,7 +174,10 @@ def _picture(placed: PlacedBox) -> Iterator[str]:
         mirrored = a < 0
         x = icon.left + 4 if mirrored else icon.right - 4
         y = icon.bottom - 2 if drawn.upright else icon.top + SMALL + (2 if drawn.frame else -1)
-        yield text(drawn.mark, x, y, anchor="start" if mirrored else "end", size=SMALL)
+        anchor = "start" if mirrored else "end"
+        if named_ports(placed.box, placed.facing):
+            x, anchor = icon.x, "middle"
+        yield text(drawn.mark, x, y, anchor=anchor, size=SMALL)
 
 
 def _port_names(placed: PlacedBox) -> Iterator[str]:

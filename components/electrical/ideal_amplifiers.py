@@ -18,7 +18,7 @@ _LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
 class IdealOpAmp(TwoPort):
     """Nullator and norator: ``v1 = 0`` and ``i1 = 0``; ``v2`` and ``i2`` are what the circuit asks for."""
 
-    ICON = icons.marked(icons.OP_AMP, "∞")
+    ICON = icons.OP_AMP_OF_PAIRS
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

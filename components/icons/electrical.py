@@ -128,18 +128,23 @@ TRANSFORMER = ac.Icon(
 OP_AMP = ac.Icon(
     "M-22 -22L22 0L-22 22Z",
     size=(44.0, 44.0),
-    upright=((-15.0, -9.0, "M-3 0H3M0 -3V3"), (-15.0, 9.0, "M-3 0H3")),
+    upright=((-15.0, -9.0, "M-3 0H3"), (-15.0, 9.0, "M-3 0H3M0 -3V3")),
     sides={
         "in_p": "left", "in_n": "left", "p1": "left", "n1": "left", "out": "right", "p2": "right", "outp": "right",
         "n2": "right", "s_p": "top", "s_n": "bottom", "VMax": "top", "VMin": "bottom", "p": "left", "m": "left",
         "n": "left", "n_supply": "bottom", "p_supply": "top", "m_supply": "bottom", "p1_2": "left",
     },
     places={
-        "in_p": -0.41, "in_n": 0.41, "p1": -0.41, "n1": 0.41, "p": -0.41, "m": 0.41, "n": 0.41, "p1_2": 0.0,
+        "in_n": -0.41, "in_p": 0.41, "p1": -0.41, "n1": 0.41, "m": -0.41, "p": 0.41, "p1_2": 0.0,
         "VMax": 0.0, "VMin": 0.0, "s_p": 0.0, "s_n": 0.0, "p_supply": 0.0, "m_supply": 0.0, "n_supply": 0.0,
         "out": 0.0, "outp": 0.0,
     },
 )  # fmt: skip
+
+
+OP_AMP_OF_PAIRS = replace(
+    OP_AMP, upright=((-15.0, -9.0, "M-3 0H3M0 -3V3"), (-15.0, 9.0, "M-3 0H3")), mark="∞"
+)
 
 
 def amplifier(text: str) -> ac.Icon:

@@ -9,7 +9,15 @@ from collections.abc import Iterator
 import pytest
 
 import acausal as ac
-from acausal.components import blocks, electrical as el, fluid, icons, neural, translational as tl
+from acausal.components import (
+    blocks,
+    electrical as el,
+    fluid,
+    icons,
+    neural,
+    rotational as rot,
+    translational as tl,
+)
 from acausal.drawing.pictures import contact, to_pin
 from acausal.drawing.ports import BOOLEAN, INTEGER, color_of
 from tests.support.scripts import script
@@ -129,12 +137,47 @@ def test_truth_values_and_whole_numbers_are_seen() -> None:
 
 
 def test_ports_have_the_places_of_their_picture() -> None:
-    """The upper input of an amplifier is the positive one, however the wires run."""
+    """The positive input of an amplifier is at its sign, however the wires run."""
     part = next(
         b for b in ac.diagram(surrounded(el.IdealOpAmp3Pin())).placed.boxes if b.box.path == "part"
     )
     at = {part.box.ports[number].name: y for number, (_, y) in part.ports.items()}
-    assert at["in_p"] < at["out"] < at["in_n"]
+    first, last = ("in_p", "in_n") if part.facing.flipped else ("in_n", "in_p")
+    assert at[first] < at["out"] < at[last]
+
+
+def test_a_picture_is_turned_upside_down_where_wires_would_cross() -> None:
+    model = ac.Component()
+    model.gear, model.sun = rot.IdealPlanetary(ratio=2.0), rot.Inertia(J=1.0)
+    model.carrier, model.ring = rot.Inertia(J=1.0), rot.Inertia(J=1.0)
+    model.engine, model.load = (
+        rot.Torque(),
+        rot.QuadraticSpeedDependentTorque(tau_nominal=-1.0, w_nominal=1.0),
+    )
+    model.connect(model.engine.flange, model.sun.flange_a)
+    model.connect(model.sun.flange_b, model.gear.sun)
+    model.connect(model.gear.carrier, model.carrier.flange_a)
+    model.connect(model.carrier.flange_b, model.load.flange)
+    model.connect(model.gear.ring, model.ring.flange_a)
+    placed = ac.diagram(model).placed
+    assert placed.crossings == 0
+    assert [box.box.path for box in placed.boxes if box.facing.flipped] == ["gear"]
+
+
+def test_a_circuit_begins_with_its_source() -> None:
+    """A converter reads from the supply to the load, though a pulse rules its switch."""
+    model = ac.Component()
+    model.pulse = blocks.BooleanPulse(width=50, period=1e-4)
+    model.source, model.inductor = el.ConstantVoltage(V=12.0), el.Inductor(L=1e-4)
+    model.switch, model.diode = el.IdealClosingSwitch(), el.IdealDiode()
+    model.load, model.ground = el.Resistor(R=10.0), el.Ground()
+    model.connect(model.source.p, model.inductor.p)
+    model.connect(model.inductor.n, model.switch.p, model.diode.p)
+    model.connect(model.diode.n, model.load.p)
+    model.connect(model.source.n, model.switch.n, model.load.n, model.ground.p)
+    model.connect(model.pulse.y, model.switch.control)
+    x = {box.box.path: box.icon.x for box in ac.diagram(model).placed.boxes}
+    assert x["source"] < x["inductor"] < x["diode"] < x["load"]
 
 
 def test_a_backlash_does_not_look_like_a_damper() -> None:
