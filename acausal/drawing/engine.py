@@ -9,6 +9,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from statistics import median
 from typing import Any
 
 from acausal.drawing.crossings import Point, branches, without_stub
@@ -56,6 +57,7 @@ class Question:
         trunks: whether the wires of a node leave it on one line.
         stub: how far a wire goes straight on from a port, at least, in pixels.
         aspect: width over height that rows are folded for; 0 for one row.
+        middles: of pictures, by the number of their box; then only wires are laid.
     """
 
     def __init__(
@@ -67,9 +69,10 @@ class Question:
         trunks: bool,
         stub: float = STUB,
         aspect: float = 0.0,
+        middles: Mapping[int, Point] | None = None,
     ) -> None:
         self.scheme, self.faced, self.gates = scheme, faced, gates
-        self.trunks, self.stub, self.aspect = trunks, stub, aspect
+        self.trunks, self.stub, self.aspect, self.middles = trunks, stub, aspect, middles
         used: list[set[int]] = [set() for _ in scheme.boxes]
         for net in scheme.nets:
             for end in net.ends:
@@ -93,7 +96,8 @@ class Question:
     def _ask(self, graph: dict[str, Any]) -> dict[str, Any]:
         spacing = {**OPTIONS["spacing"], "stub": self.stub}
         fold = {"viewport_aspect": self.aspect}
-        return _call(graph, {**OPTIONS, "spacing": spacing, "wrap": fold})
+        options = {**OPTIONS, "spacing": spacing, "wrap": fold}
+        return _call(graph, options, stays=self.middles is not None)
 
     # -- the question ----------------------------------------------------------------------------
 
@@ -124,8 +128,27 @@ class Question:
     def _graph(self, offsets: Mapping[End, float]) -> dict[str, Any]:
         nodes = [_node(*size.outside, self._rank(number)) for number, size in enumerate(self.sizes)]
         nodes += [_node(NODE, NODE) for _ in self.node_of]
+        for number, (x, y) in self._middles().items():
+            nodes[number]["position"] = {"x": x, "y": y}
         edges = [self._edge(wire, offsets) for wire in self.wires]
         return {"nodes": nodes, "edges": edges}
+
+    def _middles(self) -> dict[int, Point]:
+        """Of all nodes, if boxes have theirs: a net's is at the medians of where its wires leave boxes."""
+        if self.middles is None:
+            return {}
+        found = {n: (x - self.sizes[n].shift, y) for n, (x, y) in self.middles.items()}
+        for net, node in self.node_of.items():
+            ends = [self._before(end, *found[end.box]) for end in self.scheme.nets[net].ends]
+            found[node] = (median(x for x, _ in ends), median(y for _, y in ends))
+        return found
+
+    def _before(self, end: End, x: float, y: float) -> Point:
+        """A point before the middle of the side that an end is on."""
+        (width, height), side = self.sizes[end.box].outside, self._side(end)
+        dx = {"left": -1.0, "right": 1.0}.get(side, 0.0) * (width / 2 + self.stub)
+        dy = {"top": -1.0, "bottom": 1.0}.get(side, 0.0) * (height / 2 + self.stub)
+        return x + dx, y + dy
 
     def _rank(self, number: int) -> str:
         """Outside connectors are in the first or last layer."""
@@ -218,7 +241,7 @@ class Question:
         return Placed(placed, nets)
 
 
-def _call(graph: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
+def _call(graph: dict[str, Any], options: dict[str, Any], *, stays: bool) -> dict[str, Any]:
     try:
         import graphlay
     except ModuleNotFoundError as error:
@@ -227,7 +250,8 @@ def _call(graph: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
         raise AcausalError(
             "Drawing a model needs graphlay: pip install 'acausal[diagram]'."
         ) from None
-    return json.loads(graphlay.layout(graph, options=options).to_json())
+    work = graphlay.reroute if stays else graphlay.layout
+    return json.loads(work(graph, options=options).to_json())
 
 
 def _node(width: float, height: float, rank: str = "free") -> dict[str, Any]:

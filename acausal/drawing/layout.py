@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import islice
 
 from acausal.drawing.engine import Question
-from acausal.drawing.facing import Faced, face
+from acausal.drawing.facing import Faced, face, face_placed
 from acausal.drawing.placed import Placed, PlacedBox, Point, Rect
 from acausal.drawing.scheme import Box, Scheme
 from acausal.drawing.turns import turned, turns
@@ -61,7 +61,11 @@ def lay_out(scheme: Scheme) -> Placed:
 
 
 def _best(scheme: Scheme, gates: dict[int, dict[str, float]]) -> Placed:
-    """The best of several drawings of one level."""
+    """The best of several drawings of one level, or the author's."""
+    if scheme.is_placed:
+        return Question(
+            scheme, face_placed(scheme), gates, trunks=False, middles=_middles(scheme)
+        ).placed()
     if len(scheme.boxes) > LARGE:
         return Question(scheme, face(scheme), gates, trunks=True).placed()
     found: list[tuple[tuple[float, ...], Placed, Faced, bool]] = []
@@ -81,6 +85,28 @@ def _best(scheme: Scheme, gates: dict[int, dict[str, float]]) -> Placed:
         return best
     folded = (Question(scheme, faced, gates, trunks=trunks, aspect=a).placed() for a in FOLDS)
     return min(best, *folded, key=lambda placed: (placed.flaws, max(placed.bounds.width, WIDE)))
+
+
+UNIT = 3.4
+"""Of Modelica's diagrams, in pixels."""
+
+
+def _middles(scheme: Scheme) -> dict[int, Point]:
+    """Where the author put the parts; outside connectors are beside what they lead to."""
+    found = {
+        number: (UNIT * box.placement.x, -UNIT * box.placement.y)
+        for number, box in enumerate(scheme.boxes)
+        if box.placement is not None
+    }
+    edges = [min(x for x, _ in found.values()), max(x for x, _ in found.values())]
+    for net in scheme.nets:
+        near = [found[end.box][1] for end in net.ends if end.box in found]
+        for end in net.ends:
+            if end.box not in found:
+                right = scheme.boxes[end.box].ports[0].side == "left"
+                x = edges[right] + (50.0 if right else -50.0)
+                found[end.box] = x, near[0] if near else 0.0
+    return found
 
 
 def _begins(box: Box) -> bool:

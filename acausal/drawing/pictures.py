@@ -95,7 +95,7 @@ def to_pin(placed: PlacedBox, number: int) -> tuple[Point, ...]:
     icon, (x, y), side = placed.icon, placed.ports[number], placed.side(number)
     if hangs(placed.box):
         return (icon.x, y), (icon.x, icon.top)
-    if placed.facing.upright:
+    if placed.facing.upright and len({placed.side(other) for other in placed.ports}) == 1:
         return (icon.x, y), (icon.x, icon.top if y < icon.y else icon.bottom)
     if side in ("top", "bottom"):
         return ((x, icon.top if side == "top" else icon.bottom),)

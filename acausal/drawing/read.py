@@ -61,7 +61,8 @@ class _Reader:
             if self.boxes[number].inside:
                 inner = _Reader(part, self.depth - 1, self.from_outside.get(number, ())).scheme()
                 self.boxes[number] = replace(self.boxes[number], inner=inner)
-        return with_local_references(Scheme(tuple(self.boxes), nets))
+        scheme = Scheme(tuple(self.boxes), nets)
+        return scheme if scheme.is_placed else with_local_references(scheme)
 
     # -- boxes -----------------------------------------------------------------------------------
 
@@ -73,6 +74,7 @@ class _Reader:
         self.port_index.append({port.name: i for i, port in enumerate(ports)})
         inside = bool(part._node.children and part._node.connections)
         box = Box(path, label, role, icon, ports, count, learned=learns(part), inside=inside)
+        box = replace(box, placement=part._node.placement if count == 1 else None)
         self.boxes.append(box)
         return len(self.boxes) - 1
 
