@@ -225,7 +225,7 @@ def _itself(component: Component, depth: int) -> list[tuple[str, list[Component]
 
 def learns(part: Component) -> bool:
     """Whether there is a network in a component."""
-    return any(isinstance(d, Module) for _, d in part._node.declarations()) or any(
+    return any(isinstance(d, Module) and not d.data for _, d in part._node.declarations()) or any(
         learns(child) for child in part._node.children.values()
     )
 

@@ -74,7 +74,7 @@ class _Table2D(TableData):
         choices=get_args(surfaces.Extrapolation),
         doc="what holds outside of the table",
     )
-    surface = ac.Module("_surface")
+    surface = ac.Module("_surface", data=True)
 
     def _surface(self, _key: Any) -> surfaces.Surface:
         table = self._rows()

@@ -56,7 +56,7 @@ class PartialNoise(SO):
     fixedLocalSeed = ac.Option(1, doc="local seed otherwise, any whole number")
     startTime = ac.Parameter(0.0, unit="s", doc="time of the first number")
     length = ac.Option(2**15, doc="numbers until they repeat")
-    numbers = ac.Module("_numbers", doc="numbers over the count of samples")
+    numbers = ac.Module("_numbers", data=True, doc="numbers over the count of samples")
 
     @property
     def _global(self) -> GlobalSeed:
@@ -160,7 +160,7 @@ class TruncatedNormalNoise(PartialNoise):
     sigma = ac.Parameter(
         lambda self: (self.y_max - self.y_min) / 6, min=0, doc="standard deviation before it is cut"
     )
-    quantile = ac.Module(lambda _key: _Truncated(), doc="normal quantile between limits")
+    quantile = ac.Module(lambda _key: _Truncated(), data=True, doc="normal quantile between limits")
 
     def _noise(self, number: Any) -> Any:
         limits = ((limit - self.mu) / self.sigma for limit in (self.y_min, self.y_max))

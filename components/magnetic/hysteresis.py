@@ -164,8 +164,8 @@ class GenericHystTellinenTable(GenericHysteresisTellinen):
     mat = ac.Option(None, doc="material, a hysteresis_data.LoopTable")
     K = ac.Parameter(1.0, unit="1", doc="slope in saturation over mu_0")
     sigma = ac.Parameter(lambda self: self.mat.sigma, unit="S/m", doc="conductivity")
-    tabris = ac.Module("_rising")
-    tabfal = ac.Module("_falling")
+    tabris = ac.Module("_rising", data=True)
+    tabfal = ac.Module("_falling", data=True)
 
     def _loop(self) -> hysteresis_data.LoopTable:
         if isinstance(self.mat, hysteresis_data.LoopTable):

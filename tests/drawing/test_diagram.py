@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 import pytest
 
 import acausal as ac
-from acausal.components import electrical as el, translational as tl
+from acausal.components import blocks, electrical as el, translational as tl
 from examples.qvm.model import with_networks
 from tests.support.counted import calls_below
 from tests.support.drawn import Bridge, Chain, Controller, Drive, Tree
@@ -126,6 +126,15 @@ def test_a_connection_into_a_part_of_a_part_gets_a_port() -> None:
 def test_what_holds_a_network_is_tinted() -> None:
     drawing = ac.diagram(with_networks())
     assert drawing.svg.count('fill="#e0962f" fill-opacity="0.16"') == 2
+
+
+def test_what_holds_a_table_is_not() -> None:
+    table = blocks.CombiTimeTable(table=[[0.0, 0.0], [1.0, 1.0]])
+    assert "fill-opacity" not in ac.diagram(table, depth=0).svg
+    assert (
+        "fill-opacity"
+        not in ac.diagram(el.TableVoltage(table=[[0.0, 0.0], [1.0, 1.0]]), depth=0).svg
+    )
 
 
 def test_signals_have_arrows_and_open_inputs_are_seen() -> None:
