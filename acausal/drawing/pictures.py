@@ -171,13 +171,19 @@ def _picture(placed: PlacedBox) -> Iterator[str]:
     if drawn.text:
         yield text(drawn.text, icon.x, icon.y + 4)
     if drawn.mark:
-        mirrored = a < 0
-        x = icon.left + 4 if mirrored else icon.right - 4
-        y = icon.bottom - 2 if drawn.upright else icon.top + SMALL + (2 if drawn.frame else -1)
-        anchor = "start" if mirrored else "end"
-        if named_ports(placed.box, placed.facing):
-            x, anchor = icon.x, "middle"
-        yield text(drawn.mark, x, y, anchor=anchor, size=SMALL)
+        yield _mark(placed)
+
+
+def _mark(placed: PlacedBox) -> str:
+    """At the upper right, or where the picture and the names of ports leave room."""
+    drawn, icon = placed.box.icon, placed.icon
+    y = icon.bottom - 2 if drawn.upright else icon.top + SMALL + (2 if drawn.frame else -1)
+    named = {placed.side(number) for number in named_ports(placed.box, placed.facing)}
+    if named >= {"left", "right"}:
+        return text(drawn.mark, icon.x, y, size=SMALL)
+    if "right" in named or (not drawn.frame and placed.facing.mirrored):
+        return text(drawn.mark, icon.left + 4, y, anchor="start", size=SMALL)
+    return text(drawn.mark, icon.right - 4, y, anchor="end", size=SMALL)
 
 
 def _port_names(placed: PlacedBox) -> Iterator[str]:

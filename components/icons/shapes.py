@@ -36,7 +36,7 @@ def integers(icon: ac.Icon, names: str) -> ac.Icon:
 
 def boxed(icon: ac.Icon, mark: str = "") -> ac.Icon:
     """An element in a frame: one with signals in place of connectors, or with parts of its own."""
-    return replace(icon, size=(88.0, 46.0), frame=True, source=False, mark=mark)
+    return replace(icon, size=(88.0, 56.0), frame=True, source=False, mark=mark)
 
 
 def variable(icon: ac.Icon, mark: str = "") -> ac.Icon:
