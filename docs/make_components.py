@@ -43,8 +43,8 @@ GIVEN: dict[str, dict[str, object]] = {
     "ThermalCollectorMatrix": {"Ns": 1, "Np": 1},
 }
 """What classes need before they can be drawn."""
-CELL, COLUMNS = (240, 140), 10
-"""Room of a picture on a sheet, in pixels, and how many are side by side."""
+CELL, COLUMNS, TRIM = (240, 140), 10, 9
+"""Room of a picture on a sheet, in pixels, how many are in a row, and what a view leaves out around each."""
 STYLE = ":root{color:#1f2933}@media(prefers-color-scheme:dark){:root{color:#e4e8ec}}"
 
 
@@ -179,7 +179,8 @@ def sheet(package: str) -> str:
         inner = svg.partition("</style>")[2]
         box = re.search(r'viewBox="([^"]*)"', svg)[1]
         place = f'x="{x}" y="{y}" width="{width:g}" height="{height:g}" viewBox="{box}"'
-        views.append(f'<view id="{name}" viewBox="{x} {y} {width:g} {height:g}"/>')
+        inside = f"{x + TRIM} {y + TRIM} {width - 2 * TRIM:g} {height - 2 * TRIM:g}"
+        views.append(f'<view id="{name}" viewBox="{inside}"/>')
         drawings.append(f"<svg {place}>{inner}")
     rows = -(-len(drawings) // COLUMNS)
     return (
