@@ -142,7 +142,7 @@ def make_model(
         found = parts_of_steps(system, at(packed), longest if dt is None else min(dt, longest))
         solver = "kvaerno3" if found is None else "rk4"
         parts = (parts or 1) * (found or 1) if dt is None else parts
-    scheme = for_fixed_steps(solver_named(solver, fixed=True), direct=True)
+    scheme = for_fixed_steps(solver_named(solver, fixed=True))
     return TrackedModel(system, sensors, drifting, every, packed, scheme, parts or 1)
 
 

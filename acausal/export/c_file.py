@@ -121,14 +121,16 @@ def model_text(
     system.layout.need_modules(given)
     vector = ParameterVector(system, given)
     scheme = scheme_named(solver)
-    code = write_code(vector, wanted, derivatives=derivatives, column=scheme.implicit, watch=watch)
+    code = write_code(
+        vector, wanted, derivatives=derivatives, column=scheme.is_implicit, watch=watch
+    )
     numbers = len(system.layout.free)
     entries = vector.entries
     parameters = _with_units([e.name for e in entries[:numbers]], system)
     parameters += [(Run(e.name, "", None, e.first, 1, e.size), "") for e in entries[numbers:]]
     start, start_d = _start(system, given)
     return Text(
-        chosen, title, real, code, scheme, vector,
+        chosen, title, real, code, solver, scheme, vector,
         _states(system), _with_units(system.inputs, system),
         _with_units(wanted, system), parameters, start,
         tuple(_discrete(system)), start_d,

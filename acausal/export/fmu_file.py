@@ -121,7 +121,7 @@ def fmu(
     if text.name.startswith(("fmu_", "fmi2_", "fmi3_")):
         raise DataError(f"export.fmu: name='{text.name}' is kept for FMI's files; give another.")
     length = STEP if step is None else float(step)
-    if "co_simulation" in chosen and not text.scheme.implicit:
+    if "co_simulation" in chosen and not text.scheme.is_implicit:
         length = _stable(system, text, params, length, step is None)
     content = _content(text, system, watch, free, wanted, fmi, chosen, length, places)
     write_files({target: _zipped(content)})
@@ -190,7 +190,7 @@ def _stable(
     if is_default and needed >= SHORTEST:
         return float(needed)
     warnings.warn(
-        f"export.fmu: steps of {step:g} s are too long for '{text.scheme.name}' and the model's fastest mode, "
+        f"export.fmu: steps of {step:g} s are too long for '{text.solver}' and the model's fastest mode, "
         f"{damping:.3g} 1/s at the start; give step={needed:.1g}, or an implicit solver such as solver='kvaerno3'.",
         stacklevel=user_level(),
     )

@@ -21,6 +21,12 @@ from acausal.simulation.inputs import (
 )
 from acausal.simulation.log import Log as Log
 from acausal.simulation.motion import has_shapes as has_shapes
+from acausal.simulation.newton import (
+    KAPPA as KAPPA,
+    SLOW as SLOW,
+    STAGE_STEPS as STAGE_STEPS,
+    STAGE_TOLERANCE as STAGE_TOLERANCE,
+)
 from acausal.simulation.sampled_inputs import (
     Samples as Samples,
     polynomials_over_steps as polynomials_over_steps,
@@ -32,8 +38,6 @@ from acausal.simulation.solvers import (
     BDF as BDF,
     EXPLICIT as EXPLICIT,
     STABILITY_LIMIT as STABILITY_LIMIT,
-    STAGE_STEPS as STAGE_STEPS,
-    STAGE_TOLERANCE as STAGE_TOLERANCE,
     Scheme as Scheme,
     Solver as Solver,
     for_adaptive_steps as for_adaptive_steps,
@@ -45,7 +49,6 @@ from acausal.simulation.stability import (
     long_steps as long_steps,
     modes as modes,
 )
-from acausal.simulation.stages import KAPPA as KAPPA, SLOW as SLOW
 from acausal.simulation.steps import (
     CHATTERING as CHATTERING,
     DEADBAND_GROWTH as DEADBAND_GROWTH,
@@ -55,3 +58,4 @@ from acausal.simulation.steps import (
     integrate_in_steps as integrate_in_steps,
 )
 from acausal.simulation.sweep import Sweep as Sweep, sweep as sweep
+from acausal.simulation.tableau import Tableau as Tableau, tableau_of as tableau_of

@@ -16,13 +16,14 @@ from acausal._jax import array, cast, known, numpy_or_jax, select, traced
 from acausal.codegen import Packed, Values
 from acausal.errors import SimulationError
 from acausal.simulation import solvers
-from acausal.simulation.fixed_steps import SIDE, Steps, integrate, stability_limit
+from acausal.simulation.fixed_steps import SIDE, Steps, integrate
 from acausal.simulation.inputs import breaks, evaluate_all
 from acausal.simulation.run import Run
 from acausal.simulation.sampled_inputs import over_steps
 from acausal.simulation.solution import Solution
 from acausal.simulation.stability import FAR, is_rough, warn_of_long_steps
 from acausal.simulation.step_grid import ON_GRID, rows_of
+from acausal.simulation.tableau import tableau_of
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -57,7 +58,7 @@ def simulate_fixed(
     steps = Steps(array(ends[:-1]), array(h), samples)
     start = run.start._replace(t=array(ends[0]))  # an array: other times need no compilation
     start, steps = cast((start, steps), dtype)
-    scheme = solvers.for_fixed_steps(solver, dtype, direct=direct)
+    scheme = solvers.for_fixed_steps(solver)
     # where values are known, `are_split` has seen no edge within a step; those at ends of steps move what is traced
     divided = direct or traced(run.start.packed)
     x = _scan_steps(run.system, start, steps, scheme, direct, divided)
@@ -73,7 +74,7 @@ def simulate_fixed(
     rough = is_explicit and not traced(x) and is_rough(np.asarray(x))
     x = x if saved is None else select(x, rows)
     if is_explicit and (rough or traced(x)):
-        limit = stability_limit(scheme) if rough else FAR
+        limit = tableau_of(scheme).stability_limit() if rough else FAR
         _check_steps(run.system, start._replace(t=t, x=x, u=u), float(h), limit)
     t, x, u = cast((t, x, u), dtype)
     return Solution(start._replace(t=t, x=x, u=u), run.system)

@@ -1,29 +1,29 @@
 """Fixed steps: one step of a scheme, and its repetition.
 
-Explicit Runge–Kutta schemes are unrolled from the diffrax solver's own tableau, so that XLA sees plain
-arithmetic with constant coefficients. For any other solver, its `step` method is called.
+Explicit Runge–Kutta schemes are unrolled, so that XLA sees plain arithmetic with constant coefficients.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import diffrax as dfx
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float, PyTree
 
 from acausal._jax import Restarts, stored_scan
-from acausal.codegen import Values
+from acausal.codegen import StateJacobian, Values
 from acausal.data import Signal, deviation_from_line
 from acausal.simulation.inputs import TimeFunction
 from acausal.simulation.log import Log
+from acausal.simulation.newton import FIXED, Fields, NewtonMatrix, Rates, fixed_tolerances
 from acausal.simulation.sampled_inputs import Samples
 from acausal.simulation.solvers import EXPLICIT, Scheme
+from acausal.simulation.stages import ImplicitScheme, stages
+from acausal.simulation.tableau import Tableau, moved, tableau_of
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -36,8 +36,8 @@ EDGES = 3
 
 State: TypeAlias = Float[Array, " n_states"]
 
-Field = Callable[[ArrayLike, State, PyTree], State]
-"""The right-hand side within a step: (fraction of the step, state, arguments) -> derivative."""
+Field = Callable[[ArrayLike, PyTree], Rates]
+"""The right-hand side within a step: (fraction of the step, arguments) -> derivatives as a function of the states."""
 
 Stepper = Callable[[Field, State, Float[Array, ""], PyTree, State | None], State]
 """One step of a scheme: (field, state, length, arguments, derivative at the start if known) -> state."""
@@ -225,7 +225,12 @@ def integrate(
     """
     outputs = tuple(outputs)
     explicit = isinstance(solver, EXPLICIT)
-    advance = _explicit(_tableau(solver)) if explicit else _implicit(solver)
+    tableau = tableau_of(solver)
+    advance = (
+        _explicit(tableau.without_estimate())
+        if explicit
+        else _implicit(tableau, system.state_jacobian, start.x.dtype)
+    )
     equal = steps.h if steps.h.ndim == 0 else None
     constant = start._replace(t=None, x=None, u=None)
     constants, fixed = eqx.partition((constant, steps.inputs.functions, equal), eqx.is_array)
@@ -237,10 +242,11 @@ def integrate(
     def over(part: tuple[Any, Any], x: State, within: Within, first: State | None) -> State:
         """From one fraction of a step to another."""
 
-        def field(fraction: ArrayLike, x: State, args: tuple[Any, Within]) -> State:
+        def field(fraction: ArrayLike, args: tuple[Any, Within]) -> Rates:
             (low, high), within = args
             at: Any = fraction if _is_whole(low, high) else low + fraction * (high - low)
-            return system.rates(within.at(at, x, (low, high)))
+            values = within.at(at, x, (low, high))
+            return system.field(values.t, values.u, values.packed, values.d)
 
         low, high = part
         length = within.step.h if _is_whole(low, high) else (high - low) * within.step.h
@@ -357,131 +363,34 @@ def _next_sample(signal: Signal, t: Array) -> Array:
     return ts[jnp.searchsorted(ts, t, side="right")]
 
 
-def inner_fractions(solver: object, substeps: int) -> tuple[float, ...] | None:
+def inner_fractions(solver: Any, substeps: int) -> tuple[float, ...] | None:
     """The fractions of a step, besides its ends, at which a scheme looks at inputs; ``None`` if it does not say."""
     if not isinstance(solver, EXPLICIT):
         return None
-    stages = [0.0, *_tableau(solver).fractions]
-    found = {(j + fraction) / substeps for j in range(substeps) for fraction in stages}
+    places = [0.0, *tableau_of(solver).fractions]
+    found = {(j + fraction) / substeps for j in range(substeps) for fraction in places}
     return tuple(sorted(fraction for fraction in found if 0 < fraction < 1))
 
 
-def stability_limit(solver: Scheme) -> float:
-    """The rate of a damped mode, in units of 1/step, from which on an explicit scheme lets it grow."""
-    rows, _, weights, _ = _tableau(solver)
-    rates = np.linspace(0.0, 10.0, 1001)[1:]
-    stages: list[np.ndarray] = []  # slopes over the state, in dx/dt = -x
-    for row in rows:
-        inner = sum((a * k for a, k in zip(row, stages, strict=True)), np.zeros(len(rates)))
-        stages.append(-(1 + rates * inner))
-    after = 1 + rates * sum(b * k for b, k in zip(weights, stages, strict=True))
-    grows = np.abs(after) > 1
-    return float(rates[np.argmax(grows)]) if grows.any() else np.inf
-
-
-class Tableau(NamedTuple):
-    """The coefficients of a Runge–Kutta scheme whose stages are computed one after the other.
-
-    Attributes:
-        rows: by stage, the weights of the stages before it.
-        fractions: by stage, its place in the step.
-        weights: of all stages in the result.
-        diagonal: by stage, its own weight; 0 in an explicit scheme.
-    """
-
-    rows: Sequence[Sequence[float]]
-    fractions: Sequence[float]
-    weights: Sequence[float]
-    diagonal: Sequence[float]
-
-
-def _tableau(solver: Scheme) -> Tableau:
-    if isinstance(solver, dfx.Euler):
-        return Tableau([[]], [0.0], [1.0], [0.0])
-    if isinstance(solver, dfx.ImplicitEuler):
-        return Tableau([[]], [1.0], [1.0], [1.0])
-    tableau = cast(dfx.ButcherTableau, cast(dfx.AbstractERK, solver).tableau)
-    rows = [[], *([float(a) for a in row] for row in tableau.a_lower)]
-    fractions = [float(tableau.c1), *(float(c) for c in tableau.c)]
-    diagonal = np.zeros(len(rows)) if tableau.a_diagonal is None else tableau.a_diagonal
-    return Tableau(rows, fractions, [float(b) for b in tableau.b_sol], diagonal.tolist())
-
-
 def _explicit(tableau: Tableau) -> Stepper:
-    """An explicit Runge–Kutta step, unrolled, without the stages that serve only an error estimate."""
-    rows, fractions, weights, _ = tableau
-    needed = max(i for i, b in enumerate(weights) if b) + 1
+    """An explicit Runge–Kutta step, unrolled."""
 
     def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
-        stages = [] if first is None else [first]
-        for i in range(len(stages), needed):
-            stages.append(field(fractions[i], _sum(x, h, rows[i], stages), args))
-        return _sum(x, h, weights, stages)
+        found = [] if first is None else [first]
+        for row, fraction in zip(tableau.rows, tableau.fractions, strict=True):
+            if len(row) >= len(found):
+                found.append(field(fraction, args)(moved(x, h, row, found)))
+        return moved(x, h, tableau.weights, found)
 
     return step
 
 
-def _sum(x: State, h: Array, weights: Sequence[float], stages: Sequence[State]) -> State:
-    for weight, stage in zip(weights, stages, strict=False):
-        x = x + (weight * h) * stage if weight else x
-    return x
+def _implicit(tableau: Tableau, jacobian: StateJacobian, dtype: Any) -> Stepper:
+    """A step whose stages are solved for; it and its derivatives are NaN where these have no solution."""
+    scheme = ImplicitScheme(tableau, NewtonMatrix(jacobian), fixed_tolerances(dtype), FIXED)
 
+    def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
+        found = stages(scheme, Fields(field, args), h, x, None)
+        return moved(x, jnp.ones_like(h), tableau.weights, list(found.increments))
 
-def _implicit(solver: Scheme) -> Stepper:
-    """A solver's own `step`, in local time from 0 to h.
-
-    Its derivatives are those of one more Newton step of every stage. diffrax would solve for them itself, and end the
-    program where the equations of a stage have no solution; here the step and its derivatives are NaN.
-    """
-
-    def solved(
-        field: Field, x: State, h: Array, args: PyTree
-    ) -> tuple[State, Float[Array, "n_stages n_states"]]:
-        term = dfx.ODETerm(lambda t, x, args: field(t / h, x, args))
-        start, h, args = _strong((jnp.zeros_like(h), h, args))
-        memory = solver.init(term, start, h, x, args)
-        end, _, dense, _, result = solver.step(term, start, h, x, args, memory, False)
-        end = jnp.where(result == dfx.RESULTS.successful, end, jnp.nan)
-        return end, dense["k"] if "k" in dense else (end - x)[None]
-
-    def end_of(
-        field: Field, x: State, h: Array, args: PyTree, known: Float[Array, "n_stages n_states"]
-    ) -> State:
-        """The state at the end by one Newton step from known stages; their Jacobian is not differentiated."""
-        tableau, increments = _tableau(solver), list[Array]()
-        for k, row, own, c in zip(
-            known, tableau.rows, tableau.diagonal, tableau.fractions, strict=True
-        ):
-            before = _sum(x, jnp.ones(()), row, increments)
-            if not own:
-                increments.append(h * field(c, before, args))
-                continue
-            inner = before + own * k
-            jacobian = jax.jacfwd(lambda x, c=c: h * field(c, x, args))(inner)
-            matrix = jax.lax.stop_gradient(jnp.eye(x.size, dtype=x.dtype) - own * jacobian)
-            increments.append(k + jnp.linalg.solve(matrix, h * field(c, inner, args) - k))
-        return _sum(x, jnp.ones(()), tableau.weights, increments)
-
-    @eqx.filter_custom_jvp
-    def step(field: Field, x: State, h: Array, args: PyTree) -> State:
-        return solved(field, x, h, args)[0]
-
-    @step.def_jvp
-    def _(primals: Any, tangents: Any) -> tuple[State, State]:
-        end, known = solved(*primals)
-        known = jax.lax.stop_gradient(known)
-
-        def moved(field: Field, x: State, h: Array, args: PyTree) -> State:
-            return end_of(field, x, h, args, known)
-
-        _, tangent = eqx.filter_jvp(moved, primals, tangents)
-        return end, tangent
-
-    return lambda field, x, h, args, first: step(field, x, h, args)
-
-
-def _strong(tree: PyTree) -> PyTree:
-    """Arrays without JAX's weak types, which look like a change of type within diffrax's loops."""
-    return jax.tree.map(
-        lambda a: jax.lax.convert_element_type(a, a.dtype) if eqx.is_array(a) else a, tree
-    )
+    return step

@@ -8,10 +8,8 @@ from typing import Any, ClassVar
 import diffrax as dfx
 import equinox as eqx
 import numpy as np
-from jax.typing import DTypeLike
 
 from acausal.errors import SimulationError, nearest, shown
-from acausal.simulation.stages import StageNewton, stage_newton
 
 
 class BDF(eqx.Module):
@@ -29,12 +27,6 @@ EXPLICIT = (dfx.AbstractERK, dfx.Euler)
 
 STABILITY_LIMIT = 2.0
 """About where the stability regions of all explicit schemes end, in units of 1/step."""
-
-STAGE_TOLERANCE = {"float64": 1e-9, "float32": 1e-5}
-"""Tolerance of the state in the equations of implicit fixed steps, relative and absolute, by precision."""
-
-STAGE_STEPS = 100
-"""Newton steps allowed in each implicit fixed step: there is no shorter step to try instead."""
 
 
 class RK4(dfx.AbstractERK):
@@ -65,13 +57,16 @@ SOLVERS: dict[str, Callable[[], Solver]] = {
     "tsit5": dfx.Tsit5,
     "dopri5": dfx.Dopri5,
     "dopri8": dfx.Dopri8,
-    "implicit_euler": lambda: dfx.ImplicitEuler(root_finder=stage_newton()),
-    "kvaerno3": lambda: dfx.Kvaerno3(root_finder=stage_newton()),
-    "kvaerno4": lambda: dfx.Kvaerno4(root_finder=stage_newton()),
-    "kvaerno5": lambda: dfx.Kvaerno5(root_finder=stage_newton()),
+    "implicit_euler": dfx.ImplicitEuler,
+    "kvaerno3": dfx.Kvaerno3,
+    "kvaerno4": dfx.Kvaerno4,
+    "kvaerno5": dfx.Kvaerno5,
     "bdf": BDF,
 }
-"""Solvers by name; any other diffrax solver for ordinary differential equations can be passed itself."""
+"""Solvers by name; any other diffrax solver for ordinary differential equations can be passed itself.
+
+Of a Runge–Kutta scheme the coefficients are used: how equations of implicit stages are solved is decided here.
+"""
 
 
 def solver_named(solver: str | Solver, *, fixed: bool = False, events: bool = False) -> Solver:
@@ -125,31 +120,15 @@ def for_adaptive_steps(solver: Solver) -> Solver:
     return solver
 
 
-def for_fixed_steps(
-    solver: Solver, dtype: DTypeLike = np.float64, *, direct: bool = False
-) -> Scheme:
-    """The solver for fixed steps: an implicit one gets its own tolerances, as there is no step-size controller.
-
-    Arguments:
-        solver: as the user chose it.
-        dtype: precision of the steps.
-        direct: whether derivatives in forward mode must work, too.
+def for_fixed_steps(solver: Solver) -> Scheme:
+    """The solver, if it can make fixed steps.
 
     Raises:
         SimulationError: for a solver that is not a Runge–Kutta scheme.
     """
-    if isinstance(solver, EXPLICIT):
+    if isinstance(solver, dfx.Euler | dfx.ImplicitEuler | dfx.AbstractRungeKutta):
         return solver
-    if not isinstance(solver, dfx.ImplicitEuler | dfx.AbstractRungeKutta):
-        name = type(solver).__name__
-        raise SimulationError(
-            f"{name} is not a one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
-        )
-    tolerance = STAGE_TOLERANCE[np.dtype(dtype).name]
-    newton = StageNewton(rtol=tolerance, atol=tolerance, diverges=np.inf)
-    if direct and isinstance(solver, dfx.AbstractRungeKutta):
-        # diffrax's own loop over the stages takes derivatives in reverse mode only
-        solver = eqx.tree_at(lambda s: s.scan_kind, solver, "bounded", is_leaf=lambda a: a is None)
-    return eqx.tree_at(
-        lambda s: (s.root_finder, s.root_find_max_steps), solver, (newton, STAGE_STEPS)
+    name = type(solver).__name__
+    raise SimulationError(
+        f"{name} is not a one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
     )

@@ -1,141 +1,97 @@
-"""Newton's method for the stages of implicit Runge–Kutta schemes."""
+"""The stages of diagonally implicit Runge–Kutta steps."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple
 
-import diffrax as dfx
 import equinox as eqx
-import jax
 import jax.numpy as jnp
-import optimistix as optx
-from jaxtyping import Array, Bool, Float, Int, PyTree
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
 
-from acausal.simulation.stage_arguments import KEPT, stage_of
-
-Unknown: TypeAlias = Float[Array, " n_states"]
-LUFactors: TypeAlias = tuple[Float[Array, "n_states n_states"], Int[Array, " n_states"]]
-StageResidual: TypeAlias = Callable[[Unknown, PyTree], tuple[Unknown, PyTree]]
-"""(unknown, arguments) -> residual and auxiliary output."""
-
-KAPPA = 0.01
-"""The part of a step's tolerance that may remain as error when the iteration stops."""
-
-SLOW = 0.1
-"""Rate of convergence at which the Jacobian is renewed."""
-
-
-class _Iteration(eqx.Module):
-    """The state of the iteration: the factors of the Jacobian, and the sizes of the last two corrections."""
-
-    factors: LUFactors
-    size: Float[Array, ""]
-    previous: Float[Array, ""]
-    renewed: Bool[Array, ""]
-    count: Int[Array, ""]
-
-    @property
-    def rate(self) -> Float[Array, ""]:
-        """The ratio of the last two corrections."""
-        return self.size / self.previous
+from acausal._jax import without_derivatives
+from acausal.simulation.newton import (
+    KAPPA,
+    Equation,
+    Fields,
+    NewtonMatrix,
+    Patience,
+    State,
+    Tolerances,
+    solve,
+)
+from acausal.simulation.tableau import Tableau
 
 
-class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
-    """Newton's method that reuses its Jacobian as long as the iteration converges fast.
+class ImplicitScheme(eqx.Module):
+    """How stages are found: by a tableau, with a matrix, to tolerances."""
 
-    diffrax solves a stage for its derivative, or its derivative times the step. The tolerances are those of the state,
-    so a correction is measured by the change of the state. (`diffrax.VeryChord` applies them to the derivative; for a
-    stiff model that is below its rounding error, and every step fails.)
-    E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, Springer 1996, section IV.8.
+    tableau: Tableau = eqx.field(static=True)
+    matrix: NewtonMatrix
+    tolerances: Tolerances
+    patience: Patience = eqx.field(static=True)
+
+
+class Stages(NamedTuple):
+    """The stages of a step.
 
     Attributes:
-        rtol, atol: tolerances of the state. norm: of corrections over tolerances.
-        diverges: the rate of convergence at which the iteration stops, so that a shorter step is tried;
-            infinite where the step is fixed.
+        increments: the step times their derivatives, shape (n_stages, n_states); NaN where they are not found.
+        done: whether they are. jacobians, corrections: what that has cost.
     """
 
-    rtol: float
-    atol: float
-    norm: Callable[[PyTree], Float[Array, ""]] = optx.max_norm
-    diverges: float = 2.0
-
-    def init(
-        self,
-        fn: StageResidual,
-        y: Unknown,
-        args: PyTree,
-        options: dict[str, Any],
-        f_struct: PyTree,
-        aux_struct: PyTree,
-        tags: frozenset[object],
-    ) -> _Iteration:
-        """The start of an iteration, from the Jacobian at a point; diffrax reuses it for the other stages of a step."""
-        if KEPT in options:
-            return options[KEPT]
-        infinite = jnp.full((), jnp.inf, y.dtype)
-        return _Iteration(_factors(fn, y, args), infinite, infinite, jnp.array(False), jnp.array(0))
-
-    def step(
-        self,
-        fn: StageResidual,
-        y: Unknown,
-        args: PyTree,
-        options: dict[str, Any],
-        state: _Iteration,
-        tags: frozenset[object],
-    ) -> tuple[Unknown, _Iteration, PyTree]:
-        """One correction."""
-        renew = (state.count > 1) & (state.rate > SLOW)
-        factors = jax.lax.cond(renew, lambda: _factors(fn, y, args), lambda: state.factors)
-        residual, aux = fn(y, args)
-        correction = jax.scipy.linalg.lu_solve(factors, residual)
-        found = y - correction
-        stage = stage_of(found, args)
-        allowed = self.atol + self.rtol * jnp.abs(stage.state)
-        size = self.norm(correction * stage.per_unit / allowed)
-        return found, _Iteration(factors, size, state.size, renew, state.count + 1), aux
-
-    def terminate(
-        self,
-        fn: StageResidual,
-        y: Unknown,
-        args: PyTree,
-        options: dict[str, Any],
-        state: _Iteration,
-        tags: frozenset[object],
-    ) -> tuple[Bool[Array, ""], optx.RESULTS]:
-        """Whether the iteration stops, and why: it has converged, or it diverges."""
-        rate = state.rate
-        left = jnp.where(rate < 1, state.size * rate / (1 - rate), state.size)
-        converged = (state.count > 1) & (left < KAPPA)
-        broken = (state.count > 0) & ~jnp.isfinite(state.size)
-        failed = broken | (state.renewed & (rate > self.diverges))
-        result = optx.RESULTS.where(
-            failed, optx.RESULTS.nonlinear_divergence, optx.RESULTS.successful
-        )
-        return converged | failed, result
-
-    def postprocess(
-        self,
-        fn: StageResidual,
-        y: Unknown,
-        aux: PyTree,
-        args: PyTree,
-        options: dict[str, Any],
-        state: _Iteration,
-        tags: frozenset[object],
-        result: optx.RESULTS,
-    ) -> tuple[Unknown, PyTree, dict[str, Any]]:
-        """The root as it is."""
-        return y, aux, {}
+    increments: Float[Array, "n_stages n_states"]
+    done: Bool[Array, ""]
+    jacobians: Int[Array, ""]
+    corrections: Int[Array, ""]
 
 
-def stage_newton() -> optx.AbstractRootFinder[Any, Any, Any, Any]:
-    """A `StageNewton` with the tolerances of the step-size controller."""
-    return dfx.with_stepsize_controller_tols(StageNewton)()
+class _Row(NamedTuple):
+    """A stage: weights of the others, its own weight, its place in the step, and weights for a guess."""
+
+    weights: Float[Array, " n_stages"]
+    own: Float[Array, ""]
+    fraction: Float[Array, ""]
+    guess: Float[Array, " n_stages"]
+    at: Int[Array, ""]
 
 
-def _factors(fn: StageResidual, y: Unknown, args: PyTree) -> LUFactors:
-    jacobian = jax.jacfwd(lambda y: fn(y, args)[0])(y)
-    return jax.scipy.linalg.lu_factor(jacobian)
+def stages(
+    scheme: ImplicitScheme, fields: Fields, h: Array, x: State, first: State | None
+) -> Stages:
+    """The stages of a step of length h from x; ``first`` is the derivative there, if it is known."""
+    tableau, matrix = scheme.tableau, scheme.matrix
+    rows = _rows(tableau, x.dtype)
+    increments = jnp.zeros((len(tableau.rows), *x.shape), x.dtype)
+    if not tableau.diagonal[0]:
+        increments = increments.at[0].set(h * (fields(0.0)(x) if first is None else first))
+
+    def guess(row: _Row, increments: Array) -> State:
+        return x + (row.weights + row.own * row.guess) @ increments
+
+    def one(carry: tuple[Any, Any, Any], row: _Row) -> tuple[tuple[Any, Any, Any], None]:
+        increments, factors, (done, jacobians, corrections) = carry
+        known = x + row.weights @ increments
+        equation = Equation(fields, row.fraction, row.own * h, known, x)
+        how = scheme.tolerances, KAPPA, scheme.patience
+        found = solve(equation, matrix, factors, guess(row, increments), *how)
+        increment = jnp.where(found.done, (found.x - known) / row.own, jnp.nan)
+        cost = done & found.done, jacobians + found.jacobians, corrections + found.made
+        return (increments.at[row.at].set(increment), found.factors, cost), None
+
+    begin = _Row(*(part[0] for part in rows))
+    fixed, at, c = without_derivatives((fields, guess(begin, increments), begin.own * h))
+    factors = matrix.renewed(fixed(begin.fraction), at, c)
+    cost = jnp.array(True), jnp.ones((), jnp.int32), jnp.zeros((), jnp.int32)
+    (increments, _, cost), _ = lax.scan(one, (increments, factors, cost), rows)
+    return Stages(increments, *cost)
+
+
+def _rows(tableau: Tableau, dtype: Any) -> _Row:
+    """The implicit stages, one behind the other."""
+    n, begin = len(tableau.rows), 0 if tableau.diagonal[0] else 1
+    guesses = tableau.square(tableau.guesses) if tableau.guesses else np.eye(n, k=-1)
+    parts = tableau.square(tableau.rows), tableau.diagonal, tableau.fractions, guesses
+    weights, own, fraction, guess = (jnp.asarray(part[begin:], dtype) for part in parts)
+    return _Row(weights, own, fraction, guess, jnp.arange(begin, n))

@@ -162,7 +162,7 @@ def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
     )
     by_tolerance = options.rtol is not None or options.atol is not None
     if chosen is not None and not isinstance(chosen, BDF) and not by_tolerance:
-        return for_fixed_steps(chosen, dtype)
+        return for_fixed_steps(chosen)
     if options.dt is not None:
         raise TrainingError(
             f"dt={options.dt:g} is for fixed steps, but solver={shown(solver)}"

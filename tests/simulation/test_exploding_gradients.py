@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.simulation.fixed_steps import stability_limit
+from acausal.simulation.tableau import tableau_of
 from acausal.simulation.solvers import RK4
 from tests.support.friction import sticking
 
@@ -80,4 +80,4 @@ def test_states_that_are_wrong_within_bounds_are_warned_of():
 
 def test_limits_of_stability_are_those_of_the_schemes():
     for scheme, limit in ((dfx.Euler(), 2.0), (dfx.Heun(), 2.0), (RK4(), 2.785)):
-        assert stability_limit(scheme) == pytest.approx(limit, abs=0.02)
+        assert tableau_of(scheme).stability_limit() == pytest.approx(limit, abs=0.02)

@@ -1,54 +1,53 @@
-"""The nonlinear equations of implicit steps: tolerances in the state's units, gradients."""
+"""The nonlinear equations of implicit steps: tolerances in the state's units, gradients, sparse matrices, damping."""
 
 from typing import Any
 
 import diffrax as dfx
 import jax
 import jax.numpy as jnp
+import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.simulation import solvers
+from acausal.codegen.iteration_matrix import SparseIterationMatrix
+from acausal.components import thermal as th
 from tests.support.parts import Equations
+from tests.support.stiff import Plate
 
 CAPACITY = 1e-7
 
 
-def clamped(t: Any, v: Any, knee: Any) -> Any:
+def clamped() -> ac.System:
     """A capacitor of 0.1 uF behind 20 Ohm and a sine, clamped by an exponential characteristic."""
-    return ((10 * jnp.sin(30 * t) - v) / 20 - 1e-3 * jnp.exp((v - knee) / 0.05)) / CAPACITY
+
+    def stated(s: Any) -> Any:
+        through = (10 * ac.sin(30 * ac.time) - s.v) / 20
+        return [ac.Eq(s.C * ac.der(s.v), through - 1e-3 * ac.exp((s.v - s.knee) / 0.05))]
+
+    return ac.compile(Equations("v", stated, C=CAPACITY, knee=5.0))
 
 
-def solve(solver: Any, knee: Any, rtol: float, steps: int = 1500) -> Any:
-    return dfx.diffeqsolve(
-        dfx.ODETerm(clamped),
-        solver,
-        0.0,
-        0.05,
-        None,
-        jnp.zeros(1),
-        knee,
-        stepsize_controller=dfx.PIDController(rtol=rtol, atol=1e-2 * rtol),
-        max_steps=steps,
-        throw=False,
-    )
+def left(v: float, t: float = 0.05) -> float:
+    """The current into the capacitor: all but none, as it follows at once."""
+    return (10 * np.sin(30 * t) - v) / 20 - 1e-3 * np.exp((v - 5.0) / 0.05)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["kvaerno3", "kvaerno5"])
 def test_tight_tolerances_cost_few_steps_where_modes_are_fast(name: str) -> None:
-    found = solve(solvers.solver_named(name), 5.0, 1e-7)
-    assert bool(found.result == dfx.RESULTS.successful)
-    v, t = float(found.ys[-1, 0]), 0.05
-    assert abs(float(clamped(t, v, 5.0))) < 1e-3 * 10 / 20 / CAPACITY  # all but at rest
-    theirs = solve(dfx.Kvaerno5(), 5.0, 1e-7)  # tolerances of the derivative, below its rounding
-    assert not bool(theirs.result == dfx.RESULTS.successful)
+    found = ac.simulate(clamped(), 0.05, x0={"v": 0.0}, solver=name, rtol=1e-7, atol=1e-9)
+    assert found.statistics is not None
+    assert found.statistics.steps < 1500
+    assert abs(left(float(found["v"][-1]))) < 1e-3 * 10 / 20
 
 
 @pytest.mark.slow
 def test_gradients_go_through_implicit_steps() -> None:
+    system = clamped()
+
     def end(knee: Any) -> Any:
-        return solve(solvers.solver_named("kvaerno5"), knee, 1e-7).ys[-1, 0]
+        how = {"solver": "kvaerno5", "rtol": 1e-7, "atol": 1e-9, "x0": {"v": 0.0}}
+        return ac.simulate(system, 0.05, params={"knee": knee}, saveat=[0.05], **how).x[-1, 0]
 
     derivative = float(jax.grad(end)(5.0))
     difference = float(end(5.001) - end(4.999)) / 0.002
@@ -58,17 +57,58 @@ def test_gradients_go_through_implicit_steps() -> None:
 @pytest.mark.parametrize("name", ["implicit_euler", "kvaerno3"])
 def test_fixed_steps_far_beyond_the_fastest_mode_are_found(name: str) -> None:
     """With steps of 1 ms the derivatives reach 1e7; the state is found to its tolerance all the same."""
-    found = dfx.diffeqsolve(
-        dfx.ODETerm(clamped),
-        solvers.for_fixed_steps(solvers.solver_named(name)),
-        0.0,
-        0.05,
-        1e-3,
-        jnp.zeros(1),
-        5.0,
-    )
-    assert found.ys is not None
-    assert abs(float(clamped(0.05, found.ys[-1, 0], 5.0))) < 1e-3 * 10 / 20 / CAPACITY
+    found = ac.simulate(clamped(), 0.05, dt=1e-3, x0={"v": 0.0}, solver=name)
+    assert abs(left(float(found["v"][-1]))) < 1e-3 * 10 / 20
+
+
+def test_fixed_steps_are_damped_where_newtons_method_runs_around_the_solution() -> None:
+    """Of ``x = 10 - 100 atan(x)`` whole corrections go from 160 to -160 and back for ever."""
+    system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), -100 * ac.atan(s.x))]))
+    (x,) = ac.simulate(system, 1.0, dt=1.0, x0={"x": 10.0}, solver="implicit_euler").x[-1]
+    assert float(x) == pytest.approx(10 - 100 * np.arctan(x), abs=1e-9)
+
+
+def test_second_derivatives_go_through_multistep_and_one_step_methods() -> None:
+    """``x' = -k x^3`` is at ``(1 + 2 k t)^-1/2``."""
+    system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), -s.k * s.x**3)], k=2.0))
+
+    def end(k: Any, solver: str) -> Any:
+        how = {"adjoint": dfx.ForwardMode(), "solver": solver, "saveat": [0.5], "rtol": 1e-8}
+        return ac.simulate(system, 0.5, params={"k": k}, x0={"x": 1.0}, **how).x[-1, 0]
+
+    for solver in ("bdf", "kvaerno5"):
+        second = jax.jacfwd(jax.jacfwd(lambda k, s=solver: end(k, s)))(2.0)
+        assert float(second) == pytest.approx(0.75 * 3.0**-2.5, rel=1e-4)
+
+
+class Thermostat(Plate):
+    """A plate that is heated at its first capacity until that is hot."""
+
+    def __init__(self, n: int) -> None:
+        super().__init__(n)
+        self.heater = th.PrescribedHeatFlow()
+        self.on = ac.Discrete(1, kind="bool")
+        self.heat, self.flow = ac.Variable(unit="J", start=0.0, fixed=True), ac.Output(unit="W")
+        self.connect(self.flow, self.heater.Q_flow)
+        self.connect(self.heater.port, self.capacity[0].port)
+
+    def equations(self) -> Any:
+        first = self.capacity[0].T
+        yield ac.Eq(self.flow, ac.where(self.on, 400.0, 0.0))
+        yield ac.Eq(ac.der(self.heat), self.flow + 50.0)
+        cold = ac.where(first < 315.0, 1, ac.pre(self.on))
+        yield ac.Eq(self.on, ac.where(first > 320.0, 0, cold))
+
+
+def test_stiff_models_with_events_have_sparse_steps() -> None:
+    system = ac.compile(Thermostat(11))
+    assert isinstance(system.state_jacobian.iteration_matrix, SparseIterationMatrix)
+    found = ac.simulate(system, 20.0, solver="stiff", saveat=[0.0, 20.0], rtol=1e-8, atol=1e-8)
+    assert len(found.events) >= 2
+    values = system.parameters()
+    parts = (f"capacity[{i}]" for i in range(1, 122))
+    stored = sum(values[f"{part}.C"] * np.diff(found[f"{part}.T"])[0] for part in parts)
+    assert stored == pytest.approx(float(found["heat"][-1]), rel=1e-6)
 
 
 def test_fixed_implicit_steps_are_differentiated_in_both_modes() -> None:

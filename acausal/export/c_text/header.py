@@ -36,8 +36,8 @@ def header(text: Text) -> str:
     """The text of the header."""
     guard, name, sizes = f"{text.name.upper()}_H", text.name, text.code.sizes
     upper = text.name.upper()
-    stages = text.scheme.stages * sizes.states
-    implicit = text.scheme.implicit
+    stages = len(text.scheme.rows) * sizes.states
+    implicit = text.scheme.is_implicit
     lines = [
         f"/* {text.title}: its differential equations in C99, made by acausal.",
         "",
@@ -47,7 +47,7 @@ def header(text: Text) -> str:
         f"   {name}_start(&m);              {text.of_start}",
         f"   {name}_derivatives(&m);        m.dx from m.time, m.x, m.u",
         f"   {name}_outputs(&m);            m.y from the same",
-        f"   {name}_step(&m, h, NULL);      one step of '{text.scheme.name}' with inputs held",
+        f"   {name}_step(&m, h, NULL);      one step of '{text.solver}' with inputs held",
         f"   {name}_directional(&m, ...);   directional derivatives of m.dx and m.y",
         *([_OUTSIDE_HELP.replace("NAME", name)] if text.watches else []),
         *(_EVENT_HELP.replace("NAME", name).splitlines() if text.has_events else []),

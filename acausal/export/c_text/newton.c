@@ -54,7 +54,7 @@ static real residual(Model *m, const real t, const real *u, const real h, const 
     rates(m, SIDED(t), x, u, m->scratch);
     for (int i = 0; i < STATES; i++) {
         m->scratch[i] -= k[i];
-        const real part = fabs(h * m->scratch[i]) / (TOLERANCE * (1 + fabs(x[i])));
+        const real part = fabs(h * m->scratch[i]) / (TOLERANCE * (1 + fabs(from[i])));
         if (!(part <= size)) size = part;
     }
     return size;
@@ -63,7 +63,7 @@ static real residual(Model *m, const real t, const real *u, const real h, const 
 /* k = rates(t, from + h k). Where plain corrections fail, they begin anew, each halved until less is left. */
 static int solve_stage(Model *m, const real t, const real *u, const real h, const real *from, real *k, real *x) {
     for (int damped = 0; damped < 2; damped++) {
-        real size = INFINITY, before, left;
+        real size = INFINITY, rate = 1, before, left;
         int renew = damped;
         if (damped)
             for (int i = 0; i < STATES; i++) k[i] = 0;
@@ -89,10 +89,10 @@ static int solve_stage(Model *m, const real t, const real *u, const real h, cons
                 const real part = fabs(h * share * m->seed[i]) / (TOLERANCE * (1 + fabs(x[i])));
                 if (!(part <= size)) size = part;
             }
-            const real rate = size / before;
-            if (n > 0 && share == 1 && (rate < 1 ? size * rate / (1 - rate) : size) < KAPPA) return 1;
-            if (size == 0) return 1;
-            renew = damped || (n > 0 && rate > SLOW);
+            const real ratio = size / before;
+            if (n > 0) rate = damped || ratio > R(0.3) * rate ? ratio : R(0.3) * rate;
+            if (size == 0 || (share == 1 && size * (rate < 1 ? rate : 1) < KAPPA)) return 1;
+            renew = damped || (n > 0 && ratio > SLOW);
             left = found;
         }
     }

@@ -62,7 +62,7 @@ def _lines(text: Text) -> Iterator[str]:
     if text.watches:
         yield from _function(text, EXCESS, ["t", "x", "u"], [EXCESS])
     yield from _edges(text)
-    if text.scheme.implicit:
+    if text.scheme.is_implicit:
         yield from _implicit(text)
     yield from _variables(text)
     yield from _filling("p", text.vector.values)

@@ -12,9 +12,9 @@ from importlib.resources import files
 import numpy as np
 
 from acausal.export.c_text.code import EXCESS, Code
-from acausal.export.c_text.steps import Scheme
 from acausal.export.names import Run
 from acausal.export.vector import ParameterVector
+from acausal.simulation import Tableau
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +23,7 @@ class Text:
 
     Attributes:
         name: of the functions and the struct. title: of the model. precision: "double" or "float".
-        code: its functions. scheme: of the steps. vector: its parameters.
+        code: its functions. solver: of the steps. scheme: its coefficients. vector: its parameters.
         states, inputs, outputs, parameters: names in groups, with units.
         start: states at the start, shape (n_states,).
         discrete: names of discrete variables, the conditions first. discrete_start: their values before the start.
@@ -33,7 +33,8 @@ class Text:
     title: str
     precision: str
     code: Code
-    scheme: Scheme
+    solver: str
+    scheme: Tableau
     vector: ParameterVector
     states: Sequence[tuple[Run, str]]
     inputs: Sequence[tuple[Run, str]]

@@ -15,6 +15,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from acausal.simulation.newton import Equation, Fields, Newton, NewtonMatrix, Patience, Rates, solve
 from acausal.simulation.steps.multistep import (
     HARMONIC,
     MOST,
@@ -24,9 +25,8 @@ from acausal.simulation.steps.multistep import (
     slopes,
     weights,
 )
-from acausal.simulation.steps.newton_matrix import NewtonMatrix
 from acausal.simulation.steps.one_step import defect, first_length, look_inside
-from acausal.simulation.steps.problem import Attempt, Counts, Problem
+from acausal.simulation.steps.problem import Attempt, Counts, Problem, RightHandSide
 
 State = Float[Array, " n_states"]
 
@@ -38,14 +38,11 @@ RENEW = 0.3
 KEEP = 20
 """Steps after which it is renewed in any case."""
 
-CORRECTIONS = 4
-"""Newton steps at most."""
+PATIENCE = Patience(4, 2.0, renews=False)
+"""A matrix is renewed between steps alone."""
 
 LEFT = 0.1
 """The part of a step's tolerance that may remain as error of its equations."""
-
-DIVERGED = 2.0
-"""The ratio of two corrections at which Newton's method is given up."""
 
 INSIDE, OF_DEFECT = (0.36, 0.69), 0.002
 """Where in a step the right-hand side is looked at once more, and what a defect there counts as an error."""
@@ -101,17 +98,6 @@ class Dense(NamedTuple):
     order: Int[Array, ""]
 
 
-class _Newton(NamedTuple):
-    """Newton's method for one step."""
-
-    x: State
-    size: Float[Array, ""]
-    rate: Float[Array, ""]
-    made: Int[Array, ""]
-    done: Bool[Array, ""]
-    failed: Bool[Array, ""]
-
-
 class BDF(eqx.Module):
     """The method.
 
@@ -121,11 +107,10 @@ class BDF(eqx.Module):
 
     name: ClassVar[str] = "BDF"
     matrix: NewtonMatrix
-    tangents: bool = eqx.field(static=True, default=False)
 
     def with_tangents(self) -> BDF:
         """The method that can be differentiated in forward mode."""
-        return BDF(self.matrix, True)
+        return self
 
     def begin(self, problem: Problem, t: Array, x: State) -> tuple[Memory, Counts]:
         """What is known at the begin, or after a jump: one state."""
@@ -166,20 +151,21 @@ class BDF(eqx.Module):
         own = predicting - slopes(s, q + 1) / alpha
         known = own @ m.states
         c = h / alpha
-        whole, all_known = problem, known
-        problem, m, known = _fixed((problem, m, known))
+        equation = Equation(Fields(_at, problem.field), end, c, known, m.states[0])
+        problem, m = _fixed((problem, m))
         predicted, x_before = predicting @ m.states, m.states[0]
         constant = error_constant(s, q)
         renew = m.stale | (m.age >= KEEP) | (jnp.abs(c / m.c - 1) > RENEW)
         matrix, made_for = lax.cond(
             renew,
-            lambda: (self.matrix.renewed(problem.field, end, predicted, c), c),
+            lambda: (self.matrix.renewed(problem.field.at(end), predicted, c), c),
             lambda: (m.matrix, m.c),
         )
-        newton = self._solve(
-            problem, matrix, 2 / (1 + c / made_for), end, predicted, known, c, constant, x_before
+        scale, tolerances = 2 / (1 + c / made_for), problem.tolerances
+        newton = solve(
+            equation, self.matrix, matrix, predicted, tolerances, LEFT / constant, PATIENCE, scale
         )
-        x = newton.x
+        x, exact = lax.stop_gradient(newton.x), newton.x
         error = constant * problem.size(x - predicted, x_before, x)
         error = jnp.where(newton.done, error, jnp.inf)
         inside = _fixed(Dense(jnp.concatenate([x[None], m.states]), _with_end(s), q))
@@ -193,9 +179,7 @@ class BDF(eqx.Module):
         look = look_inside(problem, error, INSIDE, size, OF_DEFECT)
         looked = (error < 1) & (look.error >= 1)
         error, accepted = look.error, look.error < 1
-        if self.tangents:
-            x = self._with_tangent(whole, end, x, c, all_known)
-        dense = Dense(jnp.concatenate([x[None], memory.states]), _with_end(s), q)
+        dense = Dense(jnp.concatenate([exact[None], memory.states]), _with_end(s), q)
         solved = m._replace(matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted))
         after = self._after(problem, solved, h, end, _fixed(dense), error)
         after = after._replace(states=dense.states[:-1])
@@ -204,7 +188,7 @@ class BDF(eqx.Module):
         counts = Counts.of(rates=made + look.rates, jacobians=renew, corrections=made, looks=looked)
         return Attempt(
             accepted,
-            x,
+            exact,
             jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
             dense,
             Row(c, own, end, m.times, q),
@@ -213,50 +197,9 @@ class BDF(eqx.Module):
             counts,
         )
 
-    def _with_tangent(
-        self, problem: Problem, end: Array, x: State, c: Array, known: State
-    ) -> State:
-        """The solution of a step's equation, with its derivative by the implicit function theorem."""
-        residual = x - known - c * problem.field(end, x)
-        matrix = self.matrix.renewed(_fixed(problem.field), end, x, c)
-        return x - self.matrix.solve(matrix, residual - lax.stop_gradient(residual))
-
     def between(self, dense: Dense, t: Array, h: Array, at: Array) -> State:
         """The state at a time within a step."""
         return weights(dense.s, dense.order + 1, (t + h - at) / h) @ dense.states
-
-    def _solve(
-        self,
-        problem: Problem,
-        matrix: Any,
-        scale: Array,
-        t: Array,
-        predicted: State,
-        known: State,
-        c: Array,
-        constant: Array,
-        before: State,
-    ) -> _Newton:
-        """Solve ``x - c f(t, x) = known`` from the prediction."""
-
-        def goes_on(n: _Newton) -> Array:
-            return ~(n.done | n.failed)
-
-        def correct(n: _Newton) -> _Newton:
-            residual = n.x - known - c * problem.field(t, n.x)
-            correction = -scale * self.matrix.solve(matrix, residual)
-            x = n.x + correction
-            size = problem.size(correction, before, predicted)
-            rate = jnp.where(n.made > 0, jnp.maximum(0.3 * n.rate, size / n.size), n.rate)
-            done = jnp.where(size == 0, True, size * jnp.minimum(1.0, rate) * constant < LEFT)
-            count = n.made + 1
-            diverged = (n.made > 0) & (size > DIVERGED * n.size)
-            failed = ~done & (diverged | (count >= CORRECTIONS)) | ~jnp.isfinite(size)
-            return _Newton(x, size, rate, count, done & ~failed, failed)
-
-        one, no = jnp.ones_like(c), jnp.array(False)
-        begun = _Newton(predicted, one, one, jnp.zeros((), jnp.int32), no, no)
-        return lax.while_loop(goes_on, correct, begun)
 
     def _after(
         self, problem: Problem, m: Memory, h: Array, end: Array, dense: Dense, error: Array
@@ -299,7 +242,7 @@ class BDF(eqx.Module):
             stale=jnp.array(False),
         )
 
-    def _before(self, m: Memory, newton: _Newton, renewed: Array, h: Array, error: Array) -> Memory:
+    def _before(self, m: Memory, newton: Newton, renewed: Array, h: Array, error: Array) -> Memory:
         """What is known where a step does not count: a matrix to renew, or a shorter length."""
         unsolved, q = ~newton.done, m.order
         failures = m.failures + jnp.where(unsolved & ~renewed, 0, 1)
@@ -345,7 +288,7 @@ class BDF(eqx.Module):
 
         if len(problem.ts):
             _, adjoint = lax.while_loop(lambda a: a[0] < which[1], add, (which[0], adjoint))
-        matrix = self.matrix.renewed(problem.field, equation.t, row.x, equation.c)
+        matrix = self.matrix.renewed(problem.field.at(equation.t), row.x, equation.c)
         multiplier = self.matrix.solve_transposed(matrix, adjoint[0])
 
         def rates(own: list[Array]) -> State:
@@ -365,3 +308,7 @@ def _fixed(tree: Tree) -> Tree:
     """The same, without derivatives; what is not an array, as an input's function, stays as it is."""
     arrays, rest = eqx.partition(tree, eqx.is_array)
     return eqx.combine(lax.stop_gradient(arrays), rest)
+
+
+def _at(t: Any, field: RightHandSide) -> Rates:
+    return field.at(t)

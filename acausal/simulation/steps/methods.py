@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-import operator
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import diffrax as dfx
-import equinox as eqx
-import optimistix as optx
+from jax.typing import DTypeLike
 
 from acausal.codegen import StateJacobian
 from acausal.simulation import solvers
+from acausal.simulation.newton import (
+    ADAPTIVE,
+    FIXED,
+    NewtonMatrix,
+    Patience,
+    Tolerances,
+    fixed_tolerances,
+)
+from acausal.simulation.stages import ImplicitScheme
 from acausal.simulation.steps.bdf import BDF
-from acausal.simulation.steps.newton_matrix import NewtonMatrix
+from acausal.simulation.steps.diagonal import Diagonal
 from acausal.simulation.steps.one_step import Foreign
 from acausal.simulation.steps.paced import Paced
 from acausal.simulation.steps.problem import Problem
 from acausal.simulation.steps.runge_kutta import Explicit
+from acausal.simulation.tableau import tableau_of
 
-Method: TypeAlias = Explicit | Foreign | BDF
+Method: TypeAlias = Explicit | Diagonal | Foreign | BDF
 
 
 def explicit() -> Explicit:
@@ -41,30 +49,21 @@ def method_of(solver: solvers.Solver, problem: Problem, jacobian: StateJacobian)
     solver = solvers.for_adaptive_steps(solver)
     if isinstance(solver, solvers.BDF):
         return BDF(NewtonMatrix(jacobian))
-    if isinstance(solver, dfx.AbstractERK):
-        return Explicit(solver)
-    return Foreign(_with_tolerances(solver, problem))
+    if isinstance(solver, dfx.AbstractRungeKutta):
+        return _one_step(solver, jacobian, problem.tolerances, ADAPTIVE)
+    return Foreign(solver)
 
 
-def paced(scheme: solvers.Scheme) -> Paced:
+def paced(scheme: solvers.Scheme, jacobian: StateJacobian, dtype: DTypeLike) -> Paced:
     """Steps of given length by a scheme."""
-    return Paced(Explicit(scheme) if isinstance(scheme, dfx.AbstractERK) else Foreign(scheme))
+    return Paced(_one_step(scheme, jacobian, fixed_tolerances(dtype), FIXED))
 
 
-def _with_tolerances(solver: dfx.AbstractSolver[Any], problem: Problem) -> dfx.AbstractSolver[Any]:
-    """The solver with the tolerances of the steps, where its equations are to be solved with these."""
-    if not isinstance(solver, dfx.AbstractImplicitSolver):
-        return solver
-    own = {"rtol": problem.rtol, "atol": problem.atol, "norm": optx.rms_norm}
-    finder: Any = solver.root_finder
-    for name, value in own.items():
-        if _is_of_steps(getattr(finder, name, None)):
-            place = operator.attrgetter(name)
-            finder = eqx.tree_at(place, finder, value, is_leaf=_is_of_steps)
-    return eqx.tree_at(lambda s: s.root_finder, solver, finder)
-
-
-def _is_of_steps(node: object) -> bool:
-    """Whether this is what diffrax puts where a tolerance is to be that of the steps."""
-    example: Any = dfx.with_stepsize_controller_tols(optx.Newton)()
-    return node is example.rtol
+def _one_step(
+    solver: solvers.Scheme, jacobian: StateJacobian, tolerances: Tolerances, patience: Patience
+) -> Explicit | Diagonal:
+    tableau = tableau_of(solver)
+    if not tableau.is_implicit:
+        return Explicit(solver)
+    scheme = ImplicitScheme(tableau, NewtonMatrix(jacobian), tolerances, patience)
+    return Diagonal(solver, scheme)

@@ -180,7 +180,8 @@ def integrate_in_steps(
         if events is None and not system.inputs and restarts is None:
             breaks, jumps = breaks[:0], jumps[:0]
     else:
-        adaptive, method, parts = Adaptive(), paced(solver), substeps
+        adaptive, parts = Adaptive(), substeps
+        method = paced(solver, system.state_jacobian, dtype)
         breaks, most = _divided(edges, substeps), EVENTS_PER_ROW * n * substeps + FEWEST
     place = jnp.arange(1, n) * parts - 1
 

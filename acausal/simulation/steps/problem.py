@@ -11,6 +11,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from acausal.codegen import Field
 from acausal.events import Ahead, Events
+from acausal.simulation.newton import Tolerances
 
 SIDE = 16.0
 """Two times are apart if they differ by so many rounding errors."""
@@ -178,16 +179,16 @@ class Problem(eqx.Module):
         low, high = lax.stop_gradient((t + self.apart(t), edge - self.apart(t)))
         return eqx.tree_at(lambda p: p.field, self, Sided(self.field, low, high))
 
+    @property
+    def tolerances(self) -> Tolerances:
+        """Of a step."""
+        return Tolerances(self.rtol, self.atol)
+
     def size(
         self, change: Float[Array, " n_states"], *states: Float[Array, " n_states"]
     ) -> Float[Array, ""]:
-        """The root mean square of a change over what the tolerances allow at some states."""
-        if not change.size:
-            return jnp.zeros((), change.dtype)
-        largest = jnp.abs(states[0])
-        for x in states[1:]:
-            largest = jnp.maximum(largest, jnp.abs(x))
-        return jnp.sqrt(jnp.mean((change / (self.atol + self.rtol * largest)) ** 2))
+        """See `Tolerances.size`."""
+        return self.tolerances.size(change, *states)
 
 
 class Counts(NamedTuple):

@@ -8,12 +8,12 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
 from acausal.simulation.steps.one_step import Made, OneStep, State
 from acausal.simulation.steps.problem import Counts, RightHandSide
+from acausal.simulation.tableau import Tableau, moved, tableau_of
 
 MANY = 256
 """States from which on a step is made in reverse stage by stage, as it is where the right-hand side is long.
@@ -31,32 +31,31 @@ class Explicit(OneStep):
 
     def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: State) -> Made:
         """One step."""
-        tableau = self.solver.tableau
-        stages = self._stages(field, t, h, x, first)
-        if tableau.fsal:
-            end, last = _sum(x, h, tableau.a_lower[-1], stages), stages[-1]
+        tableau = tableau_of(self.solver)
+        stages = self._stages(tableau, field, t, h, x, first)
+        if tableau.hands_on:
+            end, last = moved(x, h, tableau.rows[-1], stages), stages[-1]
         else:
-            end = _sum(x, h, tableau.b_sol, stages)
+            end = moved(x, h, tableau.weights, stages)
             last = field(t + h, end)
-        zero = jnp.zeros_like(x)
-        error = _sum(zero, h, tableau.b_error, stages)
+        error = moved(jnp.zeros_like(x), h, tableau.errors, stages)
         k = h * jnp.stack(stages)
-        counts = Counts.of(rates=len(stages) - 1 + (not tableau.fsal))
+        counts = Counts.of(rates=len(stages) - 1 + (not tableau.hands_on))
         done = jnp.array(True)
-        fastest = self._fastest(x, h, stages, end)
+        fastest = _fastest(tableau, x, h, stages, end)
         return Made(end, error, {"y0": x, "y1": end, "k": k}, last, done, fastest, counts)
 
     def _stages(
-        self, field: RightHandSide, t: Array, h: Array, x: State, first: State
+        self, tableau: Tableau, field: RightHandSide, t: Array, h: Array, x: State, first: State
     ) -> list[State]:
         """The derivatives of all stages: in a loop where the right-hand side is long, else written out."""
         if field.is_long:
             c = self._tableau(h.dtype)[2]
             known = jnp.zeros((len(c), *x.shape), x.dtype).at[0].set(first)
             return list(self._loop(lambda i, inner: field(t + c[i] * h, inner), h, x, known, 1))
-        tableau, stages = self.solver.tableau, [first]
-        for row, fraction in zip(tableau.a_lower, tableau.c, strict=True):
-            stages.append(field(t + float(fraction) * h, _sum(x, h, row, stages)))
+        stages = [first]
+        for row, fraction in zip(tableau.rows[1:], tableau.fractions[1:], strict=True):
+            stages.append(field(t + fraction * h, moved(x, h, row, stages)))
         return stages
 
     def _loop(
@@ -138,28 +137,17 @@ class Explicit(OneStep):
 
     def _tableau(self, dtype: Any) -> tuple[Array, Array, Array]:
         """The matrix, the weights and the nodes, of all stages, the first included."""
-        tableau = self.solver.tableau
-        c = np.array([0.0, *tableau.c])
-        a = np.zeros((len(c), len(c)))
-        for i, row in enumerate(tableau.a_lower, 1):
-            a[i, :i] = row
-        return jnp.asarray(a, dtype), jnp.asarray(tableau.b_sol, dtype), jnp.asarray(c, dtype)
-
-    def _fastest(self, x: State, h: Array, stages: list[State], end: State) -> Array:
-        """From the last two stages of a scheme that both are at the end of the step."""
-        tableau = self.solver.tableau
-        if not (tableau.fsal and len(tableau.c) > 1 and tableau.c[-2] == 1):
-            return jnp.zeros_like(h)
-        other = _sum(x, h, tableau.a_lower[-2], stages)
-        change, apart = stages[-1] - stages[-2], end - other
-        size = jnp.sqrt(jnp.sum(apart**2))
-        return lax.stop_gradient(jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf))
+        tableau = tableau_of(self.solver)
+        parts = tableau.square(tableau.rows), tableau.weights, tableau.fractions
+        a, b, c = (jnp.asarray(part, dtype) for part in parts)
+        return a, b, c
 
 
-def _sum(x: State, h: Array, weights: Any, stages: list[State]) -> State:
-    total = None
-    for weight, stage in zip(weights, stages, strict=False):
-        if weight:
-            term = float(weight) * stage
-            total = term if total is None else total + term
-    return x if total is None else x + h * total
+def _fastest(tableau: Tableau, x: State, h: Array, stages: list[State], end: State) -> Array:
+    """From the last two stages of a scheme that both are at the end of the step."""
+    if not (tableau.hands_on and len(stages) > 2 and tableau.fractions[-2] == 1):
+        return jnp.zeros_like(h)
+    other = moved(x, h, tableau.rows[-2], stages)
+    change, apart = stages[-1] - stages[-2], end - other
+    size = jnp.sqrt(jnp.sum(apart**2))
+    return lax.stop_gradient(jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf))

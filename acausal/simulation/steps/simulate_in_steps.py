@@ -108,7 +108,8 @@ def simulate_in_steps(
         ts, jumps = inner, np.isin(inner, ts[jumps])
         max_steps = max(max_steps, 20 * len(ends))
         chosen = dfx.Tsit5() if solver is None else solver
-        method = paced(solvers.for_fixed_steps(chosen, dtype, direct=forward))
+        scheme = solvers.for_fixed_steps(chosen)
+        method = paced(scheme, run.system.state_jacobian, dtype)
     problem = Problem(
         ModelField(run.start.packed, run.inputs, run.system, run.start.d),
         run.start.x,

@@ -49,7 +49,7 @@ class StepChoice(NamedTuple):
     def over(self, problem: Problem) -> Problem:
         """A problem with these steps."""
         assert self.solver is not None
-        scheme = for_fixed_steps(solver_named(self.solver, fixed=False), problem.dtype)
+        scheme = for_fixed_steps(solver_named(self.solver, fixed=False))
         fractions = inner_fractions(scheme, self.parts)
         delayed = replace(problem.records.delayed, fractions=fractions)
         records = replace(problem.records, delayed=delayed)
@@ -94,7 +94,7 @@ def chosen_steps(
         parts = min(1 << (parts - 1).bit_length(), FINEST)
         return StepChoice(step.solver, parts, error / parts**order)
     if len(problem.records) >= MANY // 4 and step.solver == "rk4" and options.dt is None:
-        heun = for_fixed_steps(solver_named("heun", fixed=False), problem.dtype)
+        heun = for_fixed_steps(solver_named("heun", fixed=False))
         rough = difference(
             problem, np.asarray(replace(problem, solver=heun).simulate(trainable).y), fine
         )

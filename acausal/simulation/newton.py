@@ -1,0 +1,282 @@
+"""Newton's method for the equation of an implicit step, ``x - c f(x) = known``.
+
+A step of a multistep method is one such equation, a stage of a diagonally implicit Runge–Kutta step another.
+E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, Springer 1996, section IV.8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jax.typing import DTypeLike
+from jaxtyping import Array, Bool, Float, Int, PyTree
+
+from acausal._jax import without_derivatives
+from acausal.codegen import StateJacobian
+
+State = Float[Array, " n_states"]
+
+Rates = Callable[[State], State]
+"""The derivatives of the states at one time; a `codegen.Field` if the model has open loops."""
+
+SLOW = 0.1
+"""The ratio of two corrections beyond which the matrix is renewed, where it may be."""
+
+KAPPA = 0.01
+"""The part of the tolerance that may remain as error of a stage."""
+
+SHORTEST = 1e-4
+"""The shortest part of a correction that is tried."""
+
+STAGE_TOLERANCE = {"float64": 1e-9, "float32": 1e-5}
+"""Tolerance of the state in the equations of fixed steps, relative and absolute, by precision."""
+
+STAGE_STEPS = 100
+"""Newton steps allowed in each of them: there is no shorter step to try instead."""
+
+
+class NewtonMatrix(eqx.Module):
+    """The matrix ``I - c J`` by the pattern of a model's Jacobian: made at a point, factorized, and solved with.
+
+    Attributes:
+        jacobian: of the model.
+    """
+
+    jacobian: StateJacobian = eqx.field(static=True)
+
+    def empty(self, x: State) -> Any:
+        """Factors of the identity, in place of those that are not known yet."""
+        return self._factorized(jnp.zeros(self.jacobian.n_entries, x.dtype), jnp.zeros((), x.dtype))
+
+    def renewed(self, rates: Rates, x: State, c: Array) -> Any:
+        """The factors at a point."""
+        return self._factorized(self.jacobian.entries(rates, x), c)
+
+    def solve(self, factors: Any, b: State) -> State:
+        """``x`` with ``(I - c J) x = b``."""
+        return self.jacobian.iteration_matrix.solve(factors, b)
+
+    def solve_transposed(self, factors: Any, b: State) -> State:
+        """The same with the transposed matrix."""
+        return self.jacobian.iteration_matrix.solve_transposed(factors, b)
+
+    def _factorized(self, entries: Array, c: Array) -> Any:
+        return self.jacobian.iteration_matrix.factorize(entries, c)
+
+
+class Tolerances(eqx.Module):
+    """What counts as small: relative and absolute tolerances of the states."""
+
+    rtol: Float[Array, "*n_states"]
+    atol: Float[Array, "*n_states"]
+
+    def size(self, change: State, *states: State) -> Float[Array, ""]:
+        """The root mean square of a change over what the tolerances allow at some states."""
+        if not change.size:
+            return jnp.zeros((), change.dtype)
+        largest = jnp.abs(states[0])
+        for x in states[1:]:
+            largest = jnp.maximum(largest, jnp.abs(x))
+        return jnp.sqrt(jnp.mean((change / (self.atol + self.rtol * largest)) ** 2))
+
+
+class Patience(NamedTuple):
+    """When the iteration stops.
+
+    Attributes:
+        most: corrections at most. diverges: the ratio of two corrections from which on it is given up.
+        renews: whether the matrix is renewed where corrections shrink slowly.
+        damps: whether it begins anew with shorter corrections where it fails.
+    """
+
+    most: int
+    diverges: float
+    renews: bool = True
+    damps: bool = False
+
+
+ADAPTIVE = Patience(10, 2.0)
+FIXED = Patience(STAGE_STEPS, np.inf, damps=True)
+
+
+def fixed_tolerances(dtype: DTypeLike) -> Tolerances:
+    """Those of the equations of fixed steps, which have no others."""
+    tolerance = jnp.asarray(STAGE_TOLERANCE[np.dtype(dtype).name], dtype)
+    return Tolerances(tolerance, tolerance)
+
+
+class Newton(NamedTuple):
+    """The iteration.
+
+    Attributes:
+        x: the solution so far. factors: of the matrix, where it may be renewed.
+        size: of the last correction over what is allowed. rate: by which they shrink. slow: whether that is slow.
+        made: how many there were. jacobians: and how often the matrix was made.
+        done, failed: why it stops.
+    """
+
+    x: State
+    factors: Any
+    size: Float[Array, ""]
+    rate: Float[Array, ""]
+    slow: Bool[Array, ""]
+    made: Int[Array, ""]
+    jacobians: Int[Array, ""]
+    done: Bool[Array, ""]
+    failed: Bool[Array, ""]
+
+
+class Fields(eqx.Module):
+    """Right-hand sides: a time, or a fraction of a step -> derivatives as a function of the states.
+
+    Attributes:
+        function: of the time and the arguments. args: whatever has derivatives.
+    """
+
+    function: Callable[[Array | float, Any], Rates] = eqx.field(static=True)
+    args: PyTree
+
+    def __call__(self, at: Array | float) -> Rates:
+        """That at a time."""
+        return self.function(at, self.args)
+
+
+class Equation(eqx.Module):
+    """The equation ``x - c f(x) = known``.
+
+    Attributes:
+        fields: the right-hand sides. at: the time of f, as they take it. c, known: as above.
+        before: a state that says, with x, how large a correction is.
+    """
+
+    fields: Fields
+    at: Float[Array, ""]
+    c: Float[Array, ""]
+    known: State
+    before: State
+
+    @property
+    def rates(self) -> Rates:
+        """F."""
+        return self.fields(self.at)
+
+    def residual(self, x: State) -> State:
+        """What is left."""
+        return x - self.known - self.c * self.rates(x)
+
+
+def solve(
+    equation: Equation,
+    matrix: NewtonMatrix,
+    factors: Any,
+    guess: State,
+    tolerances: Tolerances,
+    left: Array | float,
+    patience: Patience,
+    scale: Array | float = 1.0,
+) -> Newton:
+    """Solve an equation; the solution has derivatives of any order, by the implicit function theorem.
+
+    Arguments:
+        equation: what to solve.
+        matrix, factors: those to begin with.
+        guess: where to begin.
+        tolerances: of the state. left: the part of them that may remain as error.
+        patience: when to stop.
+        scale: of the corrections, where the factors are those for another coefficient.
+    """
+    whole = equation
+    equation, factors, guess, scale = without_derivatives((equation, factors, guess, scale))
+
+    def correct(n: Newton) -> Newton:
+        own = factors
+        if patience.renews:
+            again = lambda: matrix.renewed(equation.rates, n.x, equation.c)  # noqa: E731
+            own = lax.cond(n.slow, again, lambda: n.factors)
+        correction = scale * matrix.solve(own, equation.residual(n.x))
+        x = n.x - correction
+        size = tolerances.size(correction, equation.before, x)
+        ratio, later, made = size / n.size, n.made > 0, n.made + 1
+        rate = jnp.where(later, jnp.maximum(0.3 * n.rate, ratio), n.rate)
+        done = jnp.where(size == 0, True, size * jnp.minimum(1.0, rate) < left)
+        diverged = later & (ratio > patience.diverges) & (n.slow | (not patience.renews))
+        failed = ~done & (diverged | (made >= patience.most)) | ~jnp.isfinite(size)
+        kept = own if patience.renews else None
+        jacobians = n.jacobians + (n.slow if patience.renews else 0)
+        slow = later & (ratio > SLOW)
+        return Newton(x, kept, size, rate, slow, made, jacobians, done & ~failed, failed)
+
+    one, none, no = jnp.ones((), guess.dtype), jnp.zeros((), jnp.int32), jnp.array(False)
+    kept = factors if patience.renews else None
+    begun = Newton(guess, kept, one, one, no, none, none, no, no)
+    found = lax.while_loop(lambda n: ~(n.done | n.failed), correct, begun)
+    if patience.damps:
+        again = lambda: _damped(equation, matrix, tolerances, left, found)  # noqa: E731
+        found = lax.cond(found.failed, again, lambda: found)
+    return found._replace(x=_root(found.x, matrix, whole))
+
+
+@eqx.filter_custom_jvp
+def _root(found: State, matrix: NewtonMatrix, equation: Equation) -> State:
+    """A solution that is found already."""
+    return found
+
+
+@_root.def_jvp
+def _(primals: Any, tangents: Any) -> tuple[State, State]:
+    matrix, equation = primals[1:]
+    x = _root(*primals)
+    _, change = eqx.filter_jvp(lambda e: e.residual(x), (equation,), (tangents[2],))
+    return x, -matrix.solve(matrix.renewed(equation.rates, x, equation.c), change)
+
+
+def _damped(
+    equation: Equation,
+    matrix: NewtonMatrix,
+    tolerances: Tolerances,
+    left: Array | float,
+    found: Newton,
+) -> Newton:
+    """Begin anew with derivatives of zero; each correction is halved until less is left of the equation."""
+
+    def remaining(x: State) -> tuple[State, Array]:
+        residual = equation.residual(x)
+        return residual, tolerances.size(residual, equation.before, equation.known)
+
+    def correct(state: tuple[Newton, State, Array]) -> tuple[Newton, State, Array]:
+        n, residual, remains = state
+        factors = matrix.renewed(equation.rates, n.x, equation.c)
+        whole = matrix.solve(factors, residual)
+
+        def shorter(trial: Any) -> Any:
+            share = trial[0] / 2
+            x = n.x - share * whole
+            return (share, x, *remaining(x))
+
+        goes_on = lambda trial: ~(trial[3] < remains) & (trial[0] > SHORTEST)  # noqa: E731
+        begin = jnp.full_like(n.size, 2.0), n.x, residual, jnp.full_like(remains, jnp.inf)
+        share, x, residual, remains = lax.while_loop(goes_on, shorter, begin)
+        size = tolerances.size(share * whole, equation.before, x)
+        made = n.made + 1
+        rate = jnp.where(n.made > found.made, size / n.size, 1.0)
+        near = (share == 1) & (size * jnp.minimum(1.0, rate) < left)
+        failed = ~jnp.isfinite(remains) | (made >= 2 * STAGE_STEPS)
+        after = n._replace(
+            x=x,
+            size=size,
+            rate=rate,
+            made=made,
+            jacobians=n.jacobians + 1,
+            done=near,
+            failed=failed,
+        )
+        return after, residual, remains
+
+    begun = found._replace(x=equation.known, failed=jnp.array(False))
+    goes_on = lambda state: ~(state[0].done | state[0].failed)  # noqa: E731
+    return lax.while_loop(goes_on, correct, (begun, *remaining(begun.x)))[0]
