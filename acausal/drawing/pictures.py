@@ -181,7 +181,7 @@ def _mark(placed: PlacedBox) -> str:
     named = {placed.side(number) for number in named_ports(placed.box, placed.facing)}
     if named >= {"left", "right"}:
         return text(drawn.mark, icon.x, y, size=SMALL)
-    if "right" in named or (not drawn.frame and placed.facing.mirrored):
+    if "right" in named or placed.facing.mirrored:
         return text(drawn.mark, icon.left + 4, y, anchor="start", size=SMALL)
     return text(drawn.mark, icon.right - 4, y, anchor="end", size=SMALL)
 

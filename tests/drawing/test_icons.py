@@ -180,6 +180,20 @@ def test_a_circuit_begins_with_its_source() -> None:
     assert x["source"] < x["inductor"] < x["diode"] < x["load"]
 
 
+@pytest.mark.parametrize("end", ["flange_a", "flange_b"])
+def test_a_mark_is_beside_its_network(end: str) -> None:
+    """The picture is mirrored where wires want it, the letters go to the free side."""
+    model = ac.Component()
+    model.push, model.law, model.wall = tl.Force(), neural.Resistance(), tl.Fixed()
+    other = {"flange_a": "flange_b", "flange_b": "flange_a"}[end]
+    model.connect(model.push.flange, getattr(model.law, end))
+    model.connect(getattr(model.law, other), model.wall.flange)
+    drawing = ac.diagram(model)
+    part = next(box for box in drawing.placed.boxes if box.box.path == "law")
+    (x,) = re.findall(r'<text x="([\d.-]+)"[^>]*>R</text>', drawing.svg)
+    assert (float(x) < part.icon.x) == part.facing.mirrored == (end == "flange_b")
+
+
 def test_a_backlash_does_not_look_like_a_damper() -> None:
     assert "M-12 -11H12V11H-12" in icons.DAMPER.strokes
     assert icons.BACKLASH.strokes != icons.DAMPER.strokes

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.simulation.tableau import tableau_of
 from acausal.simulation.solvers import RK4
+from acausal.simulation.tableau import tableau_of
 from tests.support.friction import sticking
 
 
