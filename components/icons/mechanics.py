@@ -60,8 +60,13 @@ FRICTION = element(
 REVOLUTE = ac.Icon(
     "M-12 0A12 12 0 1 0 12 0A12 12 0 1 0 -12 0M-4 0A4 4 0 1 0 4 0A4 4 0 1 0 -4 0",
     sides={"flange_a": "top", "support": "bottom"},
+    places={"flange_a": 0.0, "support": 0.0},
 )
-PRISMATIC = ac.Icon("M-14 -12H14V12H-14Z", sides={"flange_a": "top", "support": "bottom"})
+PRISMATIC = ac.Icon(
+    "M-14 -12H14V12H-14Z",
+    sides={"flange_a": "top", "support": "bottom"},
+    places={"flange_a": 0.0, "support": 0.0},
+)
 ROLLING = element("M-12 0a12 12 0 1 0 24 0a12 12 0 1 0 -24 0M-20 12H30M30 12V0")
 VEHICLE = ac.Icon(
     "M-26 8V-2L-18 -4L-12 -13H10L18 -4L26 -2V8Z"
