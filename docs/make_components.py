@@ -12,7 +12,7 @@ import pkgutil
 import re
 from collections.abc import Container
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from itertools import takewhile
 from pathlib import Path
 from types import ModuleType
@@ -43,6 +43,8 @@ GIVEN: dict[str, dict[str, object]] = {
     "ThermalCollectorMatrix": {"Ns": 1, "Np": 1},
 }
 """What classes need before they can be drawn."""
+LONG, MANY = 88, 16
+"""How long an equation is at most that is shown, and how many are."""
 CELL, COLUMNS, TRIM = (240, 140), 10, 9
 """Room of a picture on a sheet, in pixels, how many are in a row, and what a view leaves out around each."""
 STYLE = ":root{color:#1f2933}@media(prefers-color-scheme:dark){:root{color:#e4e8ec}}"
@@ -83,12 +85,27 @@ class Entry:
         ]
 
     @property
+    def equations(self) -> list[str]:
+        """Its own equations, as far as they are short; none of what is made of parts."""
+        if not issubclass(self.cls, acausal.Component):
+            return []
+        try:
+            made = [str(equation) for equation in self._made.equations()]
+        except (acausal.AcausalError, NotImplementedError):  # it needs values, or a subclass
+            return []
+        return [text for text in made if len(text) <= LONG][:MANY]
+
+    @cached_property
+    def _made(self) -> acausal.Component:
+        return self.cls(**GIVEN.get(self.cls.__name__, {}))
+
+    @property
     def picture(self) -> str:
         """Its icon with its connectors, as SVG; empty for what has none."""
         if not issubclass(self.cls, acausal.Component) or self.cls.ICON is None:
             return ""
         try:
-            return acausal.diagram(self.cls(**GIVEN.get(self.cls.__name__, {})), depth=0).svg
+            return acausal.diagram(self._made, depth=0).svg
         except (acausal.AcausalError, NotImplementedError):  # it only says what is missing
             return ""
 
@@ -205,19 +222,17 @@ def _group(package: str, module: str, entries: list[Entry], drawn: Container[str
 
 
 def _card(package: str, entry: Entry, has_picture: bool) -> str:
-    """Picture, name, law and parameters of a class."""
+    """Picture, name, law, parameters and equations of a class."""
     icon = f"![](../images/icons/{package}.svg#{entry.name}){{ .icon }}\n\n" if has_picture else ""
     more = f"[Reference](../reference/{package}.md#{entry.anchor})"
     rows = [f"| `{n}` | {_code(u)} | {_code(d)} | {m} |" for n, u, d, m in entry.parameters]
     names = ", ".join(f"<code>{name}</code>" for name, *_ in entry.parameters)
-    table = (
-        f"<details markdown><summary>{names}</summary>\n\n| | unit | default | |\n|---|---|---|---|\n"
-        + "\n".join(rows)
-        + "\n\n</details>\n\n"
-        if rows
-        else ""
-    )
-    return f"<div markdown>\n\n### {entry.name}\n\n{icon}{entry.law} {more}\n\n{table}</div>"
+    table = "\n".join(["| | unit | default | |", "|---|---|---|---|", *rows]) if rows else ""
+    equations = "\n".join(["```text", *entry.equations, "```"]) if entry.equations else ""
+    folded = "\n\n".join(part for part in (table, equations) if part)
+    summary = f"<details markdown><summary>{names or 'Equations'}</summary>"
+    details = f"{summary}\n\n{folded}\n\n</details>\n\n" if folded else ""
+    return f"<div markdown>\n\n### {entry.name}\n\n{icon}{entry.law} {more}\n\n{details}</div>"
 
 
 def _code(text: str) -> str:
