@@ -21,7 +21,7 @@ from .data import (
     load_params as load_params,
     save_params as save_params,
 )
-from .drawing import Diagram as Diagram, diagram as diagram
+from .drawing import Diagram as Diagram, diagram as diagram, place as place
 from .errors import (
     AcausalError as AcausalError,
     ConnectionError as ConnectionError,

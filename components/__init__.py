@@ -36,8 +36,8 @@ FUNCTIONS: dict[str, Callable[..., Any]]
 
 
 def __dir__() -> list[str]:
-    """The packages complete before they are imported."""
-    return sorted({*globals(), *PACKAGES})
+    """A prompt completes the packages, also before they are imported, and nothing that is in between."""
+    return sorted(PACKAGES)
 
 
 def __getattr__(name: str) -> Any:

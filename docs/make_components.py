@@ -1,7 +1,7 @@
 """List the component library: python docs/make_components.py.
 
-Writes the lists of docs/components.md, between their markers, and docs/reference/, a page for each package.
-tests/test_components_page.py tells when it has to be run again.
+Writes, for each package, the list of docs/components/ between its markers, its pictures in docs/images/icons/, and
+the page of docs/reference/. tests/components/test_components_page.py says when it has to be run again.
 """
 
 from __future__ import annotations
@@ -10,7 +10,10 @@ import importlib
 import inspect
 import pkgutil
 import re
+from collections.abc import Container
 from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import takewhile
 from pathlib import Path
 from types import ModuleType
 
@@ -18,7 +21,7 @@ import acausal
 import acausal.components
 
 HERE = Path(__file__).resolve().parent
-PAGE, REFERENCE = HERE / "components.md", HERE / "reference"
+PAGES, REFERENCE, ICONS = HERE / "components", HERE / "reference", HERE / "images" / "icons"
 MECHANICS, FLUIDS = ("translational", "rotational", "planar"), ("thermal", "fluid", "hydraulic")
 FIRST = (*MECHANICS, "electrical", "battery", "magnetic", *FLUIDS, "blocks", "neural")
 """Order of the packages on the page; any other follows."""
@@ -26,6 +29,25 @@ LEADING, TRAILING = ("components", "basic"), ("sources", "sensors", "adaptors", 
 """Modules of a package that are listed first and last."""
 BASES = ("interfaces", "bases")
 """Modules whose classes are connectors and bases: listed by name alone."""
+
+
+SET = acausal.Parameter, acausal.Option, acausal.Module
+"""What a user of a class gives."""
+LISTED = re.compile(r"[A-Z]\w*:\n|```|>>>")
+GIVEN: dict[str, dict[str, object]] = {
+    "CombiTable1Ds": {"table": [[0.0, 0.0], [1.0, 1.0]]},
+    "CombiTable1Dv": {"table": [[0.0, 0.0], [1.0, 1.0]]},
+    "CombiTimeTable": {"table": [[0.0, 0.0], [1.0, 1.0]]},
+    "TimeTable": {"table": [[0.0, 0.0], [1.0, 1.0]]},
+    "StateSpace": {"A": [[1.0]], "B": [[1.0]], "C": [[1.0]], "D": [[0.0]]},
+    "ThermalCollectorMatrix": {"Ns": 1, "Np": 1},
+}
+"""What classes need before they can be drawn."""
+LONG, MANY = 88, 16
+"""How long an equation is at most that is shown, and how many are."""
+CELL, COLUMNS, TRIM = (240, 140), 10, 9
+"""Room of a picture on a sheet, in pixels, how many are in a row, and what a view leaves out around each."""
+STYLE = ":root{color:#1f2933}@media(prefers-color-scheme:dark){:root{color:#e4e8ec}}"
 
 
 @dataclass(frozen=True)
@@ -42,6 +64,50 @@ class Entry:
         paragraph = (inspect.getdoc(self.cls) or "").partition("\n\n")[0]
         sentence = re.split(r"(?<=[.;:!?])\s*\n|(?<=\.)\s+(?=[A-Z`])", paragraph)[0]
         return " ".join(sentence.split()).rstrip(".;:").replace("``", "`")
+
+    @property
+    def law(self) -> str:
+        """What the docstring says before its lists of arguments and examples, in Markdown."""
+        paragraphs = (inspect.getdoc(self.cls) or "").split("\n\n")
+        said = takewhile(lambda p: not LISTED.match(p), paragraphs)
+        return "\n\n".join(said).replace("``", "`")
+
+    @property
+    def parameters(self) -> list[tuple[str, str, str, str]]:
+        """Name, unit, default and meaning of what can be set."""
+        found: dict[str, acausal.modeling.Declaration] = {}
+        for base in reversed(self.cls.__mro__):
+            found |= {n: d for n, d in vars(base).items() if isinstance(d, SET)}
+        return [
+            (name, declared.unit, _shown(getattr(declared, "default", None)), declared.doc)
+            for name, declared in found.items()
+            if not name.startswith("_")
+        ]
+
+    @property
+    def equations(self) -> list[str]:
+        """Its own equations, as far as they are short; none of what is made of parts."""
+        if not issubclass(self.cls, acausal.Component):
+            return []
+        try:
+            made = [str(equation) for equation in self._made.equations()]
+        except (acausal.AcausalError, NotImplementedError):  # it needs values, or a subclass
+            return []
+        return [text for text in made if len(text) <= LONG][:MANY]
+
+    @cached_property
+    def _made(self) -> acausal.Component:
+        return self.cls(**GIVEN.get(self.cls.__name__, {}))
+
+    @property
+    def picture(self) -> str:
+        """Its icon with its connectors, as SVG; empty for what has none."""
+        if not issubclass(self.cls, acausal.Component) or self.cls.ICON is None:
+            return ""
+        try:
+            return acausal.diagram(self._made, depth=0).svg
+        except (acausal.AcausalError, NotImplementedError):  # it only says what is missing
+            return ""
 
     @property
     def module(self) -> str:
@@ -107,10 +173,40 @@ def listing(package: str) -> str:
     for entry in entries:
         if not entry.is_base:
             groups.setdefault(entry.cls.__module__, []).append(entry)
-    parts = [_group(package, module, groups[module]) for module in sorted(groups, key=_place)]
+    drawn = {name for name, _ in pictures(package)}
+    parts = [_group(package, m, groups[m], drawn) for m in sorted(groups, key=_place)]
     if bases := [_link(package, e) for e in entries if e.is_base]:
-        parts.append(f"Connectors and bases: {', '.join(bases)}.")
+        parts.append(f"## Connectors and bases\n\n{', '.join(bases)}.")
     return "\n\n".join(parts)
+
+
+@cache
+def pictures(package: str) -> tuple[tuple[str, str], ...]:
+    """Names and icons of the package's classes."""
+    found = ((entry.name, entry.picture) for entry in classes(package) if not entry.is_base)
+    return tuple((name, svg) for name, svg in found if svg)
+
+
+def sheet(package: str) -> str:
+    """All icons of a package in one SVG file, each as a view of the name of its class."""
+    views, drawings = [], []
+    for number, (name, svg) in enumerate(pictures(package)):
+        x, y = CELL[0] * (number % COLUMNS), CELL[1] * (number // COLUMNS)
+        width, height = (float(re.search(rf' {k}="([\d.]+)"', svg)[1]) for k in ("width", "height"))
+        inner = svg.partition("</style>")[2]
+        box = re.search(r'viewBox="([^"]*)"', svg)[1]
+        place = f'x="{x}" y="{y}" width="{width:g}" height="{height:g}" viewBox="{box}"'
+        inside = f"{x + TRIM} {y + TRIM} {width - 2 * TRIM:g} {height - 2 * TRIM:g}"
+        views.append(f'<view id="{name}" viewBox="{inside}"/>')
+        drawings.append(f"<svg {place}>{inner}")
+    rows = -(-len(drawings) // COLUMNS)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{CELL[0] * COLUMNS}" height="{CELL[1] * rows}" '
+        'font-family="system-ui,sans-serif" font-size="11" fill="none" stroke-linecap="round" '
+        f'stroke-linejoin="round"><style>{STYLE}</style>\n'
+        + "\n".join([*views, *drawings])
+        + "\n</svg>\n"
+    )
 
 
 def _place(module: str) -> tuple[int, str]:
@@ -119,10 +215,34 @@ def _place(module: str) -> tuple[int, str]:
     return places.get(name, 1), module
 
 
-def _group(package: str, module: str, entries: list[Entry]) -> str:
-    caption = [] if module == _path(package) else [f"*{_caption(module)}*", ""]
-    items = [f"- {_link(package, e)}" + (f": {e.text}" if e.text else "") for e in entries]
-    return "\n".join([*caption, *items])
+def _group(package: str, module: str, entries: list[Entry], drawn: Container[str]) -> str:
+    caption = "General" if module == _path(package) else _caption(module)
+    cards = "\n\n".join(_card(package, entry, entry.name in drawn) for entry in entries)
+    return f'## {caption}\n\n<div class="components" markdown>\n\n{cards}\n\n</div>'
+
+
+def _card(package: str, entry: Entry, has_picture: bool) -> str:
+    """Picture, name, law, parameters and equations of a class."""
+    icon = f"![](../images/icons/{package}.svg#{entry.name}){{ .icon }}\n\n" if has_picture else ""
+    more = f"[Reference](../reference/{package}.md#{entry.anchor})"
+    rows = [f"| `{n}` | {_code(u)} | {_code(d)} | {m} |" for n, u, d, m in entry.parameters]
+    names = ", ".join(f"<code>{name}</code>" for name, *_ in entry.parameters)
+    table = "\n".join(["| | unit | default | |", "|---|---|---|---|", *rows]) if rows else ""
+    equations = "\n".join(["```text", *entry.equations, "```"]) if entry.equations else ""
+    folded = "\n\n".join(part for part in (table, equations) if part)
+    summary = f"<details markdown><summary>{names or 'Equations'}</summary>"
+    details = f"{summary}\n\n{folded}\n\n</details>\n\n" if folded else ""
+    return f"<div markdown>\n\n### {entry.name}\n\n{icon}{entry.law} {more}\n\n{details}</div>"
+
+
+def _code(text: str) -> str:
+    return f"`{text}`" if text else ""
+
+
+def _shown(default: object) -> str:
+    """A default, if it is a plain value."""
+    plain = isinstance(default, bool | int | float) or (isinstance(default, str) and default)
+    return f"{default:g}" if type(default) is float else str(default) if plain else ""
 
 
 def _caption(module: str) -> str:
@@ -136,17 +256,15 @@ def _link(package: str, entry: Entry) -> str:
     return f"[`{entry.name}`](reference/{package}.md#{entry.anchor})"
 
 
-def page(text: str) -> str:
-    """The text of the page with all lists made anew."""
-    for package in packages():
-        start, end = f"<!-- classes of {package} -->\n", "<!-- end -->"
-        if start not in text:
-            raise SystemExit(
-                f"{PAGE.name} has no section for {package}: write one around the lines\n{start}{end}"
-            )
-        before, _, rest = text.partition(start)
-        text = before + start + "\n" + listing(package) + "\n\n" + end + rest.partition(end)[2]
-    return text
+def page(package: str) -> str:
+    """The text of a package's page with its list made again."""
+    path = PAGES / f"{package}.md"
+    start, end = f"<!-- classes of {package} -->\n", "<!-- end -->"
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    if start not in text:
+        raise SystemExit(f"write docs/components/{path.name} around the lines\n{start}{end}")
+    before, _, rest = text.partition(start)
+    return before + start + "\n" + listing(package) + "\n\n" + end + rest.partition(end)[2]
 
 
 def reference(package: str) -> str:
@@ -174,8 +292,10 @@ def _directive(path: str, *, heading: bool) -> str:
 
 def main() -> None:
     """Write everything."""
-    PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    ICONS.mkdir(exist_ok=True)
     for package in packages():
+        (PAGES / f"{package}.md").write_text(page(package), encoding="utf-8")
+        (ICONS / f"{package}.svg").write_text(sheet(package), encoding="utf-8")
         (REFERENCE / f"{package}.md").write_text(reference(package), encoding="utf-8")
 
 

@@ -290,7 +290,7 @@ class Linearization:
         modes = [f"  {text}" for text in self._modes()]
         small = len(self.states) <= MOST_STATES
         matrices = [
-            f"  {name} = " + np.array2string(np.asarray(m), precision=4, prefix=" " * 6)
+            f"  {name} = " + np.array2string(np.asarray(m) + 0.0, precision=4, prefix=" " * 6)
             for name, m in zip("ABCD", self, strict=True)
             if small and m.size
         ]
@@ -317,9 +317,10 @@ class Linearization:
 
 
 def _in_words(eigenvalue: complex, damping: float) -> str:
+    damping = 0.0 if abs(damping) < 1e-12 else damping  # of rounding, with a sign
     if eigenvalue.imag:
         frequency = abs(eigenvalue) / (2 * np.pi)
-        shown = f"{eigenvalue.real:.4g} ± {eigenvalue.imag:.4g}j"
+        shown = f"{eigenvalue.real + 0.0:.4g} ± {eigenvalue.imag:.4g}j"
         return f"{shown}: {frequency:.4g} Hz, damping {damping:.3g}"
     rate = eigenvalue.real
     return f"{rate:.4g}" + (f": time constant {-1 / rate:.4g} s" if rate < 0 else "")

@@ -9,3 +9,4 @@ from acausal.drawing.diagram import (
     diagram as diagram,
     diagram_svg as diagram_svg,
 )
+from acausal.drawing.place import place as place

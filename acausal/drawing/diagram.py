@@ -64,19 +64,20 @@ def diagram(model: Component | Modelled, *, depth: int = 1) -> Diagram:
 
     Arguments:
         model: the component, or system, whose parts are drawn.
-        depth: how many levels of parts are shown; with 2, parts that have parts are opened, and so on.
+        depth: how many levels of parts are shown; with 2, parts that have parts are opened, and so on. With 0, the
+            component itself is drawn, as it looks within other models.
 
     Returns:
         The drawing, with its SVG as ``svg`` and a method ``save``; notebooks show it.
 
     Raises:
-        ModelError: for what is not a component, or for a depth below 1.
+        ModelError: for what is not a component, or for a depth below 0.
         AcausalError: if graphlay is not installed.
     """
     component: Any = model if isinstance(model, Component) else getattr(model, "model", model)
     if not isinstance(component, Component):
         raise ModelError(f"diagram needs a Component, got {type(component).__name__}")
-    placed = lay_out(read(component, need_whole(depth, "diagram: depth", ModelError, 1)))
+    placed = lay_out(read(component, need_whole(depth, "diagram: depth", ModelError, 0)))
     title = f"Diagram of {component._node.path or type(component).__name__}"
     return Diagram(write(placed, title), placed)
 

@@ -6,9 +6,10 @@ It is asked twice: first which order the ports of a side should have, then with 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from statistics import median
 from typing import Any
 
 from acausal.drawing.crossings import Point, branches, without_stub
@@ -55,6 +56,8 @@ class Question:
         gates: for an opened box, by its number, the places of its ports from -1 at its top to 1.
         trunks: whether the wires of a node leave it on one line.
         stub: how far a wire goes straight on from a port, at least, in pixels.
+        aspect: width over height that rows are folded for; 0 for one row.
+        middles: of pictures, by the number of their box; then only wires are laid.
     """
 
     def __init__(
@@ -65,9 +68,11 @@ class Question:
         *,
         trunks: bool,
         stub: float = STUB,
+        aspect: float = 0.0,
+        middles: Mapping[int, Point] | None = None,
     ) -> None:
         self.scheme, self.faced, self.gates = scheme, faced, gates
-        self.trunks, self.stub = trunks, stub
+        self.trunks, self.stub, self.aspect, self.middles = trunks, stub, aspect, middles
         used: list[set[int]] = [set() for _ in scheme.boxes]
         for net in scheme.nets:
             for end in net.ends:
@@ -90,7 +95,9 @@ class Question:
 
     def _ask(self, graph: dict[str, Any]) -> dict[str, Any]:
         spacing = {**OPTIONS["spacing"], "stub": self.stub}
-        return _call(graph, {**OPTIONS, "spacing": spacing})
+        fold = {"viewport_aspect": self.aspect}
+        options = {**OPTIONS, "spacing": spacing, "wrap": fold}
+        return _call(graph, options, stays=self.middles is not None)
 
     # -- the question ----------------------------------------------------------------------------
 
@@ -121,8 +128,27 @@ class Question:
     def _graph(self, offsets: Mapping[End, float]) -> dict[str, Any]:
         nodes = [_node(*size.outside, self._rank(number)) for number, size in enumerate(self.sizes)]
         nodes += [_node(NODE, NODE) for _ in self.node_of]
+        for number, (x, y) in self._middles().items():
+            nodes[number]["position"] = {"x": x, "y": y}
         edges = [self._edge(wire, offsets) for wire in self.wires]
         return {"nodes": nodes, "edges": edges}
+
+    def _middles(self) -> dict[int, Point]:
+        """Of all nodes, if boxes have theirs: a net's is at the medians of where its wires leave boxes."""
+        if self.middles is None:
+            return {}
+        found = {n: (x - self.sizes[n].shift, y) for n, (x, y) in self.middles.items()}
+        for net, node in self.node_of.items():
+            ends = [self._before(end, *found[end.box]) for end in self.scheme.nets[net].ends]
+            found[node] = (median(x for x, _ in ends), median(y for _, y in ends))
+        return found
+
+    def _before(self, end: End, x: float, y: float) -> Point:
+        """A point before the middle of the side that an end is on."""
+        (width, height), side = self.sizes[end.box].outside, self._side(end)
+        dx = {"left": -1.0, "right": 1.0}.get(side, 0.0) * (width / 2 + self.stub)
+        dy = {"top": -1.0, "bottom": 1.0}.get(side, 0.0) * (height / 2 + self.stub)
+        return x + dx, y + dy
 
     def _rank(self, number: int) -> str:
         """Outside connectors are in the first or last layer."""
@@ -162,15 +188,27 @@ class Question:
         for (box, side), ends in along.items():
             icon, outside = self.sizes[box].icon, self.sizes[box].outside
             axis = 1 if side in ("left", "right") else 0
-            if box in self.gates:
-                share = icon[1] / outside[1]
-                offsets |= {e: share * self.gates[box][self.scheme.port(e).name] for e in ends}
+            if places := self._places(box, ends):
+                share = icon[axis] / outside[axis]
+                facing = self.faced.boxes[box]
+                way = -1 if (facing.mirrored, facing.flipped)[axis] else 1
+                offsets |= {end: way * share * place for end, place in places.items()}
                 continue
             spread = _spread(len(ends), upright=self.faced.boxes[box].upright)
             order = sorted(ends, key=lambda end: (ends[end], end))
             for end, share in zip(order, spread, strict=True):
                 offsets[end] = share * icon[axis] / outside[axis]
         return offsets
+
+    def _places(self, box: int, ends: Iterable[End]) -> dict[End, float]:
+        """Places of the ports of a side, if its frame or its icon has one for each of them."""
+        if self.faced.boxes[box].upright:
+            return {}
+        known = self.gates.get(box, self.scheme.boxes[box].icon.places)
+        names = {end: self.scheme.port(end).name for end in ends}
+        return (
+            {e: known[n] for e, n in names.items()} if known.keys() >= set(names.values()) else {}
+        )
 
     # -- the answer ------------------------------------------------------------------------------
 
@@ -203,7 +241,7 @@ class Question:
         return Placed(placed, nets)
 
 
-def _call(graph: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
+def _call(graph: dict[str, Any], options: dict[str, Any], *, stays: bool) -> dict[str, Any]:
     try:
         import graphlay
     except ModuleNotFoundError as error:
@@ -212,7 +250,8 @@ def _call(graph: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
         raise AcausalError(
             "Drawing a model needs graphlay: pip install 'acausal[diagram]'."
         ) from None
-    return json.loads(graphlay.layout(graph, options=options).to_json())
+    work = graphlay.reroute if stays else graphlay.layout
+    return json.loads(work(graph, options=options).to_json())
 
 
 def _node(width: float, height: float, rank: str = "free") -> dict[str, Any]:

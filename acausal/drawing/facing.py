@@ -10,8 +10,8 @@ from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from acausal.drawing.scheme import OPPOSITE, Scheme
-from acausal.modeling import Side
+from acausal.drawing.scheme import OPPOSITE, Box, Scheme
+from acausal.modeling import Placement, Side
 
 
 @dataclass(frozen=True)
@@ -23,12 +23,14 @@ class Facing:
         mirrored: whether left and right are exchanged.
         upright: whether an element that usually lies stands.
         place: its position from left to right, as a number of steps.
+        flipped: whether top and bottom are exchanged.
     """
 
     sides: Mapping[int, Side]
     mirrored: bool
     upright: bool
     place: float
+    flipped: bool = False
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,35 @@ class Faced:
 def face(scheme: Scheme, *, signals_first: bool = True) -> Faced:
     """Turn every box, beginning with the sources of signals, or with other sources such as voltages."""
     return _Walk(scheme, signals_first).faced()
+
+
+def face_placed(scheme: Scheme) -> Faced:
+    """Turn every box as its author did; outside connectors face the middle."""
+    boxes = tuple(_as_placed(box) for box in scheme.boxes)
+    ends = ([boxes[end.box].place for end in net.ends] for net in scheme.nets)
+    return Faced(boxes, tuple(sum(places) / len(places) for places in ends))
+
+
+ROUND: tuple[Side, ...] = ("left", "bottom", "right", "top")
+"""Sides in the order in which they follow each other as a box is turned."""
+
+
+def _as_placed(box: Box) -> Facing:
+    placement = box.placement or Placement(0.0, 0.0)
+    free = [i for i, port in enumerate(box.ports) if port.side is None]
+    first: Side = "right" if box.icon.source and len(free) == 1 else "left"
+    sides: dict[int, Side] = {
+        i: port.side or (first if i == free[0] else "right") for i, port in enumerate(box.ports)
+    }
+    if box.icon.reference:
+        sides = {i: box.icon.sides.get(box.ports[i].name, side) for i, side in sides.items()}
+    if placement.mirrored:
+        sides = {i: OPPOSITE[s] if s in ("left", "right") else s for i, s in sides.items()}
+    quarters = 0 if box.icon.reference else placement.turned // 90
+    sides = {i: ROUND[(ROUND.index(s) + quarters) % 4] for i, s in sides.items()}
+    upright = quarters % 2 == 1 and not box.icon.frame
+    half = quarters == 2
+    return Facing(sides, placement.mirrored != half, upright, placement.x, half)
 
 
 class _Walk:

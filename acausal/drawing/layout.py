@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import islice
 
 from acausal.drawing.engine import Question
-from acausal.drawing.facing import Faced, face
+from acausal.drawing.facing import Faced, face, face_placed
 from acausal.drawing.placed import Placed, PlacedBox, Point, Rect
 from acausal.drawing.scheme import Box, Scheme
 from acausal.drawing.turns import turned, turns
@@ -21,7 +21,13 @@ LONGER = 15.0
 """Another length of straight wire at a port, which makes some wires take another way, in pixels."""
 
 HABIT = 6
-"""How many more bends a drawing may have that begins with signals, as readers expect."""
+"""How many more bends a drawing may have that begins as readers expect: with a source of voltage, else with signals."""
+
+WIDE = 1000.0
+"""A wider drawing is folded into rows, in pixels."""
+
+FOLDS = (3.0, 2.0, 1.5)
+"""Width over height that is tried then."""
 
 ROOM = 16.0
 """Room in the frame of an opened component, in pixels."""
@@ -55,24 +61,62 @@ def lay_out(scheme: Scheme) -> Placed:
 
 
 def _best(scheme: Scheme, gates: dict[int, dict[str, float]]) -> Placed:
-    """The best of several drawings of one level."""
+    """The best of several drawings of one level, or the author's."""
+    if scheme.is_placed:
+        return Question(
+            scheme, face_placed(scheme), gates, trunks=False, middles=_middles(scheme)
+        ).placed()
     if len(scheme.boxes) > LARGE:
         return Question(scheme, face(scheme), gates, trunks=True).placed()
-    found: list[tuple[tuple[float, ...], Placed]] = []
+    found: list[tuple[tuple[float, ...], Placed, Faced, bool]] = []
+    powered = any(box.icon.source and _begins(box) for box in scheme.boxes)
     for signals_first in (True, False):
         faced = face(scheme, signals_first=signals_first)
         for trunks in (True, False):
-            placed = _improved(scheme, faced, gates, trunks)
+            placed, turned_to = _improved(scheme, faced, gates, trunks)
             crossings, bends, length = _cost(placed)
-            found.append(((crossings, bends + (0 if signals_first else HABIT), length), placed))
+            usual = signals_first != powered
+            cost = (crossings, bends + (0 if usual else HABIT), length)
+            found.append((cost, placed, turned_to, trunks))
         if not any(net.signal for net in scheme.nets):
             break
-    return min(found, key=lambda drawing: drawing[0])[1]
+    _, best, faced, trunks = min(found, key=lambda drawing: drawing[0])
+    if best.bounds.width <= WIDE:
+        return best
+    folded = (Question(scheme, faced, gates, trunks=trunks, aspect=a).placed() for a in FOLDS)
+    return min(best, *folded, key=lambda placed: (placed.flaws, max(placed.bounds.width, WIDE)))
+
+
+UNIT = 3.4
+"""Of Modelica's diagrams, in pixels."""
+
+
+def _middles(scheme: Scheme) -> dict[int, Point]:
+    """Where the author put the parts; outside connectors are beside what they lead to."""
+    found = {
+        number: (UNIT * box.placement.x, -UNIT * box.placement.y)
+        for number, box in enumerate(scheme.boxes)
+        if box.placement is not None
+    }
+    edges = [min(x for x, _ in found.values()), max(x for x, _ in found.values())]
+    for net in scheme.nets:
+        near = [found[end.box][1] for end in net.ends if end.box in found]
+        for end in net.ends:
+            if end.box not in found:
+                right = scheme.boxes[end.box].ports[0].side == "left"
+                x = edges[right] + (50.0 if right else -50.0)
+                found[end.box] = x, near[0] if near else 0.0
+    return found
+
+
+def _begins(box: Box) -> bool:
+    """Whether what flows through a model comes from here: two ends, and no signal that says how much."""
+    return [port.kind for port in box.ports if port.kind != "output"] == ["connector", "connector"]
 
 
 def _improved(
     scheme: Scheme, faced: Faced, gates: dict[int, dict[str, float]], trunks: bool
-) -> Placed:
+) -> tuple[Placed, Faced]:
     """A drawing whose boxes are turned, one after the other, while that makes crossings fewer."""
     best = Question(scheme, faced, gates, trunks=trunks).placed()
     if best.flaws:
@@ -86,7 +130,7 @@ def _improved(
         trial = Question(scheme, turned(faced, turn), gates, trunks=trunks).placed()
         if _cost(trial) < _cost(best):
             best, faced = trial, turned(faced, turn)
-    return best
+    return best, faced
 
 
 def _cost(placed: Placed) -> tuple[int, int, float]:

@@ -6,10 +6,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, pairwise
+from typing import Literal
 
 from acausal.drawing.crossings import Point as Point, crossings, shared
 from acausal.drawing.facing import Facing
 from acausal.drawing.scheme import Box, Net
+from acausal.drawing.sizes import FONT, LINE, SMALL, label_of, text_width
 from acausal.modeling import Side
 
 
@@ -56,6 +58,23 @@ class Rect:
 
 
 @dataclass(frozen=True)
+class Label:
+    """A text that begins, ends or has its middle at a point of its baseline."""
+
+    words: str
+    point: Point
+    anchor: Literal["start", "middle", "end"] = "middle"
+    size: float = FONT
+
+    @property
+    def rect(self) -> Rect:
+        """About what it covers."""
+        (x, y), width = self.point, text_width(self.words, self.size)
+        left = x - {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor] * width
+        return Rect.between(left, left + width, y - 0.75 * self.size, y + 0.2 * self.size)
+
+
+@dataclass(frozen=True)
 class PlacedBox:
     """A box, where it lies and where wires reach it.
 
@@ -80,6 +99,25 @@ class PlacedBox:
     def side(self, port: int) -> Side:
         """The side that a port is on."""
         return self.facing.sides.get(port, "right")
+
+    @property
+    def label(self) -> Label | None:
+        """The name: below, or above where a wire leaves below, or beside the wires where they leave at both."""
+        words, icon, box = label_of(self.box), self.icon, self.box
+        if not words or self.inner is not None:
+            return None
+        if box.is_port and self.framed:
+            left = self.side(0) == "right"
+            x = icon.right + 2 if left else icon.left - 2
+            return Label(words, (x, icon.y - 4), "start" if left else "end", SMALL)
+        used = [*self.ports, *(footing.port for footing in box.footings)]
+        sides = {self.side(number) for number in used}
+        if "bottom" not in sides:
+            return Label(words, (icon.x, icon.bottom + LINE - 3))
+        if "top" not in sides:
+            return Label(words, (icon.x, icon.top - 4 - (6 if box.count > 1 else 0)))
+        below = [self.ports.get(n, (icon.x, 0.0))[0] for n in used if self.side(n) == "bottom"]
+        return Label(words, (max(below) + 5, icon.bottom + LINE - 3), "start")
 
 
 @dataclass(frozen=True)
@@ -160,6 +198,11 @@ class Placed:
             for a, b in pairwise(line)
         )
 
+    @property
+    def covered(self) -> list[tuple[str, str]]:
+        """Labels that a wire, a picture or another label touches: each with a name of what does."""
+        return [pair for level in self.levels() for pair in _covered(level)]
+
     def overlaps(self) -> Iterator[tuple[str, str]]:
         """Paths of boxes that overlap."""
         for level in self.levels():
@@ -186,3 +229,16 @@ def _around(a: Point, b: Point) -> Rect:
     """What a piece of a wire covers, and what is beside it."""
     (left, right), (top, bottom) = (sorted(ends) for ends in zip(a, b, strict=True))
     return Rect.between(left - BESIDE, right + BESIDE, top - BESIDE, bottom + BESIDE)
+
+
+def _covered(level: Placed) -> Iterator[tuple[str, str]]:
+    labels = [(box.box.path, box.label.rect) for box in level.boxes if box.label is not None]
+    wires = [
+        (" ".join(net.net.names), Rect.between(min(a[0], b[0]), max(a[0], b[0]), min(a[1], b[1]), max(a[1], b[1])))
+        for net in level.nets for line in net.lines for a, b in pairwise(line)
+    ]  # fmt: skip
+    pictures = [(box.box.path, box.icon) for box in level.boxes if box.inner is None]
+    for i, (path, label) in enumerate(labels):
+        for name, other in (*labels[i + 1 :], *wires, *pictures):
+            if label.overlaps(other):
+                yield path, name

@@ -10,6 +10,8 @@ from acausal.modeling import Component, Connector, Declaration, Icon, Input, Out
 SIGNAL, BOOLEAN, INTEGER = "#6f7fa3", "#b650a8", "#c27c2c"
 """Colours of signals: of real numbers, truth values and whole numbers."""
 
+KINDS = {"bool": BOOLEAN, "int": INTEGER}
+
 FEW = 4
 """A vector of signals with more elements than this is one port."""
 
@@ -35,7 +37,7 @@ def ports_of(part: Component, icon: Icon, *, is_list: bool = False) -> tuple[Por
     free = [n for n in connectors if n not in BELOW] if len(connectors) > 1 else connectors
     ports: list[Port] = []
     for name, d in declared:
-        color = color_of(d)
+        color = KINDS.get(icon.kinds.get(name, "")) or color_of(d)
         usual = _usual(name, d, free)
         stated = name in icon.sides and not icon.reference
         side = icon.sides[name] if stated else usual
@@ -57,7 +59,7 @@ def color_of(declared: Declaration | Connector) -> str:
     """Colour of the wires of a connector, or of a signal of a kind."""
     if isinstance(declared, Connector):
         return declared.COLOR
-    return {"bool": BOOLEAN, "int": INTEGER}.get(getattr(declared, "kind", "real"), SIGNAL)
+    return KINDS.get(getattr(declared, "kind", "real"), SIGNAL)
 
 
 def joined(name: str, elements: int) -> str:

@@ -26,6 +26,7 @@ def read(model: Component, depth: int = 1) -> Scheme:
     Arguments:
         model: the component whose parts are drawn.
         depth: how many levels of parts are shown; parts with parts of their own are opened above the last.
+            At 0 the model itself is one box.
     """
     return _Reader(model, depth, ()).scheme()
 
@@ -47,7 +48,7 @@ class _Reader:
         self.parts: dict[int, Component] = {}  # that stand alone, by the number of their box
         self.from_outside: dict[int, list[Any]] = {}  # connected ends, by box
         self.gates: dict[str, int] = {}
-        for label, parts in [*_families(model)] or _itself(model):
+        for label, parts in [*(_families(model) if depth else ())] or _itself(model, depth):
             number = self._add_box(parts[0], label, len(parts))
             self.box_of |= {part._node.name: number for part in parts}
             if len(parts) == 1:
@@ -60,7 +61,8 @@ class _Reader:
             if self.boxes[number].inside:
                 inner = _Reader(part, self.depth - 1, self.from_outside.get(number, ())).scheme()
                 self.boxes[number] = replace(self.boxes[number], inner=inner)
-        return with_local_references(Scheme(tuple(self.boxes), nets))
+        scheme = Scheme(tuple(self.boxes), nets)
+        return scheme if scheme.is_placed else with_local_references(scheme)
 
     # -- boxes -----------------------------------------------------------------------------------
 
@@ -72,6 +74,7 @@ class _Reader:
         self.port_index.append({port.name: i for i, port in enumerate(ports)})
         inside = bool(part._node.children and part._node.connections)
         box = Box(path, label, role, icon, ports, count, learned=learns(part), inside=inside)
+        box = replace(box, placement=part._node.placement if count == 1 else None)
         self.boxes.append(box)
         return len(self.boxes) - 1
 
@@ -141,8 +144,9 @@ class _Reader:
                 continue
             seen.add(tuple(sorted(ends)))
             names = {f.end: _full_name(given[f]) for f in reversed(fine)}
-            kinds = [_kind_and_color(given[f]) for f in fine]
-            kind, color = next((k for k in kinds if k[1] != SIGNAL), kinds[0])
+            kind = _kind_and_color(given[fine[0]])[0]
+            colors = [self.boxes[end.box].ports[end.port].color for end in ends]
+            color = next((color for color in colors if color != SIGNAL), SIGNAL)
             if kind != "connector":
                 ends.sort(key=lambda end: not self._is_source(end))
             own = tuple(self._own(end, used) for end in ends)
@@ -150,7 +154,7 @@ class _Reader:
 
     def _connections(self) -> Iterator[tuple[Any, Any]]:
         """Pairs of ends; those that levels above reach are connected to a gate."""
-        yield from self.model._node.connections
+        yield from self.model._node.connections if self.depth else ()
         for end in self.reached:
             owner, name = owner_and_name(end)
             if owner is self.model._node:
@@ -213,14 +217,15 @@ def _families(component: Component) -> Iterator[tuple[str, list[Component]]]:
                 yield part._node.name, [part]
 
 
-def _itself(component: Component) -> list[tuple[str, list[Component]]]:
-    """A component without parts is drawn as its icon."""
-    return [] if component.ICON is None else [(component._node.name, [component])]
+def _itself(component: Component, depth: int) -> list[tuple[str, list[Component]]]:
+    """A component without parts is drawn as its icon, and so is any at depth 0."""
+    drawn = component.ICON is not None or depth == 0
+    return [(component._node.name, [component])] if drawn else []
 
 
 def learns(part: Component) -> bool:
     """Whether there is a network in a component."""
-    return any(isinstance(d, Module) for _, d in part._node.declarations()) or any(
+    return any(isinstance(d, Module) and not d.data for _, d in part._node.declarations()) or any(
         learns(child) for child in part._node.children.values()
     )
 

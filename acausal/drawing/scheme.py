@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from acausal.modeling import Icon, Side
+from acausal.modeling import Icon, Placement, Side
 
 Kind = Literal["input", "output", "connector"]
 
@@ -65,6 +65,7 @@ class Box:
         inner: what is drawn in it where it is opened.
         is_port: whether it is an outside connector of what is drawn.
         footings: grounds of its own.
+        placement: where the model's author put it.
     """
 
     path: str
@@ -78,6 +79,7 @@ class Box:
     inner: Scheme | None = None
     is_port: bool = False
     footings: tuple[Footing, ...] = ()
+    placement: Placement | None = None
 
 
 @dataclass(frozen=True, order=True)
@@ -111,6 +113,12 @@ class Scheme:
 
     boxes: tuple[Box, ...]
     nets: tuple[Net, ...]
+
+    @property
+    def is_placed(self) -> bool:
+        """Whether the author gave a place to every component."""
+        places = [box.placement for box in self.boxes if not box.is_port]
+        return bool(places) and None not in places
 
     def port(self, end: End) -> Port:
         """The port at an end."""

@@ -73,7 +73,11 @@ def size_of(box: Box, facing: Facing, used: Collection[int]) -> Size:
     above = 2 * LINE if label else 0.0
     beside = [facing.sides[footing.port] for footing in box.footings]
     left, right = (REACH * beside.count(side) for side in ("left", "right"))
-    broad = max(width, text_width(label) + 4)
+    both = at["top"] and at["bottom"]
+    room = (
+        2 * text_width(label) + 14 + PITCH * (at["bottom"] - 1) if both else text_width(label) + 4
+    )
+    broad = max(width, room)
     return Size((width, height), (broad + left + right, height + above), (left - right) / 2)
 
 

@@ -13,7 +13,7 @@ Turn = tuple[int, Facing]
 
 
 def turns(scheme: Scheme, faced: Faced) -> Iterator[Turn]:
-    """Ports above may go below; outside connectors, and blocks and sensors that feed back, may face the other way."""
+    """Ports above may go below, pictures upside down; gates, and blocks and sensors that feed back, the other way."""
     back = set(_feeding_back(scheme, faced))
     for number, (box, facing) in enumerate(zip(scheme.boxes, faced.boxes, strict=True)):
         gate = box.is_port and box.ports[0].kind == "connector"
@@ -23,6 +23,11 @@ def turns(scheme: Scheme, faced: Faced) -> Iterator[Turn]:
                 for port, side in facing.sides.items()
             }
             yield number, replace(facing, sides=sides, mirrored=not facing.mirrored)
+        if box.icon.places and not facing.upright:
+            sides = {
+                p: OPPOSITE[s] if s in ("top", "bottom") else s for p, s in facing.sides.items()
+            }
+            yield number, replace(facing, sides=sides, flipped=not facing.flipped)
         for port, side in facing.sides.items():
             if side in ("top", "bottom") and box.ports[port].name not in box.icon.sides:
                 yield number, replace(facing, sides={**facing.sides, port: OPPOSITE[side]})

@@ -361,7 +361,10 @@ class Build:
                 return [nested((*index, (i, size))) for i in range(size)]
             inner = [g.element(index) for g in mod.inner]
             value = mod.value and mod.value.element(index)
-            return self._part(element_name(name, index), entry, found, inner, value)
+            part = self._part(element_name(name, index), entry, found, inner, value)
+            if not index and isinstance(part, Component):
+                part._node.placement = entry.declared.placement
+            return part
 
         return nested(())
 

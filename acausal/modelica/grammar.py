@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from acausal.modelica.expressions import Expressions
+from acausal.modelica.placing import placement
 from acausal.modelica.syntax import (
     Argument,
     Branches,
@@ -266,12 +267,14 @@ class _Reader(Expressions):
             own = self.subscripts() if self.peek == "[" else []
             modifier = self.modifier()
             condition = self.expression() if self.accept("if") else None
-            comment = self.comment()
-            found.append(
-                Declared(
-                    name, kind, own + common, modifier, condition, replace(prefixes), comment, at
-                )
+            comment, begin = self.string_comment(), self.position
+            if self.peek == "annotation":
+                self.annotation()
+            spot = placement("".join(self.texts[begin : self.position]))
+            whole = Declared(
+                name, kind, own + common, modifier, condition, replace(prefixes), comment, at
             )
+            found.append(replace(whole, placement=spot))
             if single or not self.accept(","):
                 return found
 

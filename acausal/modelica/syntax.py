@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 from acausal.modelica.tokens import Source
+from acausal.modeling import Placement
 
 
 @dataclass(slots=True, eq=False)
@@ -208,6 +209,7 @@ class Declared:
     comment: str
     at: int
     constraint: Extends | None = None
+    placement: Placement | None = None
 
 
 @dataclass(slots=True, eq=False)

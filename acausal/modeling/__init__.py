@@ -96,6 +96,7 @@ from acausal.modeling.names import (
     names_in as names_in,
     names_matching as names_matching,
 )
+from acausal.modeling.placement import Placement as Placement
 from acausal.modeling.shape import Shape as Shape
 from acausal.modeling.summary import value_text as value_text
 from acausal.modeling.symbols import (

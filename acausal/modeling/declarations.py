@@ -247,7 +247,8 @@ class Module(Declaration):
     ``system.parameters(key)`` has new weights. The default may also be the name of a method of the component
     that is such a function. In equations it is called: ``self.net(self.v)``.
 
-    ``unit`` is the unit of its result, ``takes`` has those of its arguments; an empty one fits everything.
+    ``unit`` is the unit of its result, ``takes`` has those of its arguments; an empty one fits everything. ``data``
+    says that it holds what is known, such as a table: drawings tint what is learned.
     """
 
     def __init__(
@@ -256,10 +257,11 @@ class Module(Declaration):
         *,
         unit: str = "",
         takes: tuple[str, ...] = (),
+        data: bool = False,
         doc: str = "",
     ) -> None:
         super().__init__(unit=unit, doc=doc)
-        self.default, self.takes = default, takes
+        self.default, self.takes, self.data = default, takes, data
 
 
 def element_names(name: str, shape: tuple[int, ...] | None) -> list[str]:

@@ -28,9 +28,12 @@ class Icon:
         fills: path data that is filled.
         upright: path data of signs and curves that stay upright however the picture is turned, each with its place.
         text: short text in the middle.
+        mark: shorter text at the upper right, which tells a class from others with the same strokes.
         size: width and height, in pixels.
         frame: whether a box surrounds it, as for blocks.
         sides: name of a connector or signal -> the side it is on, where that differs from the usual one.
+        kinds: name of a signal -> ``"bool"`` or ``"int"``, for its colour, where a real variable holds such values.
+        places: name -> its place on that side, from -1 at the left or top to 1; without, wires choose the order.
         source: whether a drawing begins with it, at the left, as with a voltage source.
         reference: whether it only fixes a potential, as a ground: one that is connected to several components is
             drawn at each of them.
@@ -48,6 +51,9 @@ class Icon:
     source: bool = False
     reference: bool = False
     upright: tuple[tuple[float, float, str], ...] = ()
+    places: Mapping[str, float] = field(default_factory=dict[str, float])
+    mark: str = ""
+    kinds: Mapping[str, str] = field(default_factory=dict[str, str])
 
     def __post_init__(self) -> None:
         placed: Any = self.upright
@@ -64,6 +70,12 @@ class Icon:
                 raise DeclarationError(
                     f"an icon's strokes are SVG path data such as 'M-30 0H30', got {shown(data)}"
                 )
+        if not isinstance(self.places, Mapping) or not all(
+            isinstance(place, int | float) and -1 <= place <= 1 for place in self.places.values()
+        ):
+            raise DeclarationError(
+                f"an icon's places go by name and lie between -1 and 1, got {shown(self.places)}"
+            )
         for name, side in self.sides.items():
             if not isinstance(side, str) or side not in ("left", "right", "top", "bottom"):
                 raise DeclarationError(

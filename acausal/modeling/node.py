@@ -17,6 +17,7 @@ from acausal.errors import DeclarationError, nearest, shown
 from acausal.modeling.budget import Budget, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import Declaration, Module, Option, Parameter
+from acausal.modeling.placement import Placement
 from acausal.modeling.symbols import Eq, ModuleReference, Owner, Reference, elements
 
 Endpoint = Connector | Reference
@@ -43,6 +44,7 @@ class Node(Generic[C]):
         constants: plain values that were assigned to attributes.
         early_modifiers: modifiers of parts that do not exist yet.
         connections: pairs of endpoints that it connects.
+        placement: where it lies on the schematic of its parent, if that was said.
         bindings: equations that hold because parameters depend on unknown initial parameters.
     """
 
@@ -60,6 +62,7 @@ class Node(Generic[C]):
     early_modifiers: dict[str, Mapping[str, Any]] = field(default_factory=dict)
     connections: list[tuple[Endpoint, Endpoint]] = field(default_factory=list)
     bindings: list[Eq] = field(default_factory=list)
+    placement: Placement | None = None
 
     # -- place in the tree -----------------------------------------------------------------------
 

@@ -20,6 +20,7 @@ from acausal.modeling import (
     Eq,
     InitialParameter,
     Parameter,
+    Placement,
     Start,
 )
 from acausal.netlist import library
@@ -194,15 +195,26 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
     entry = cast(Mapping[str, Any], entry)
     given = as_object(entry, "with", where)
     if "components" in entry:
-        inner = {k: v for k, v in entry.items() if k != "with"}
-        return build(inner, where, scope.libraries)
-    need_keys(entry, ("class", "with"), where)
+        inner = {k: v for k, v in entry.items() if k not in ("with", "place")}
+        return _placed(build(inner, where, scope.libraries), entry, where)
+    need_keys(entry, ("class", "with", "place"), where)
     cls = scope.find(entry.get("class"), f"{where}.class")
     scope.model._file.class_names[key] = entry["class"]
     if not issubclass(cls, Component):
         scope.model._file.placed.append(key)
         return cls()
     part, scope.model._file.arguments[key] = make(scope, cls, given, f"{where}.with", where)
+    return _placed(part, entry, where)
+
+
+def _placed(part: Component, entry: Mapping[str, Any], where: str) -> Component:
+    """The part, on its place of the schematic if it has one."""
+    if "place" in entry:
+        given = as_object(entry, "place", where)
+        need_keys(given, ("x", "y", "turned", "mirrored"), f"{where}.place")
+        if not {"x", "y"} <= given.keys():
+            raise NetlistError(f"{where}.place: x and y are needed")
+        part._node.placement = within(f"{where}.place", lambda: Placement(**given))
     return part
 
 

@@ -190,6 +190,10 @@ class Writer:
                 given[key] = texts[name, key][0]
             elif key in changed:
                 given[key] = changed[key]
+        if (spot := part._node.placement) is not None:
+            turned = {"turned": spot.turned} if spot.turned else {}
+            mirrored = {"mirrored": True} if spot.mirrored else {}
+            entry = {**entry, "place": {"x": spot.x, "y": spot.y, **turned, **mirrored}}
         return {**entry, "with": given} if given else entry
 
     def _modifiers(

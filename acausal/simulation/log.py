@@ -35,6 +35,10 @@ JUMP = "an input jumps"
 """What is said of an event that no condition made."""
 
 
+CLOCK = re.compile(r"(?:([\w.\[\]]+) >=? time|time [<>]=? ([\w.\[\]]+))$")
+"""A condition of the time, which is over once it has made its event."""
+
+
 class Event(NamedTuple):
     """An event.
 
@@ -58,12 +62,16 @@ class Event(NamedTuple):
 
     def __str__(self) -> str:
         """In words."""
-        words = f"t = {self.t:.9g} s: {self.effect or self.condition}"
+        words = f"t = {self.t:.9g} s: {self.effect or CLOCK.sub(_reached, self.condition)}"
         if not self.grazes:
             return words
         return (
             f"{words} (it hardly changes there: a gradient through it does not exist, or is huge)"
         )
+
+
+def _reached(condition: re.Match[str]) -> str:
+    return f"time reaches {condition[1] or condition[2]}"
 
 
 class EventList(tuple[Event, ...]):
@@ -198,13 +206,16 @@ def _effect(system: System, before: Mapping[str, float], after: Mapping[str, flo
     begun, ended, changed = list[str](), list[str](), list[str]()
     for name, value in after.items():
         index = layout.find_variable(name)
-        doc = "" if index is None else layout.variable_declaration(index).doc
-        words = dict(re.findall(r"(?:^|, )(-?\d+) (?:where |while )?([^,]+)", doc))
+        declared = None if index is None else layout.variable_declaration(index)
+        doc = "" if declared is None else declared.doc
+        words = dict(re.findall(r"(?:^|, )(-?\d+) (?!or \d)(?:where |while )?([^,]+)", doc))
         component = name.rpartition(".")[0]
         if (said := words.get(f"{value:g}")) is not None:
             begun.append(f"{component}: {said}" if component else said)
         elif words:
             ended.append(f"{name} becomes false")
+        elif getattr(declared, "kind", "") == "bool":
+            changed.append(f"{name} becomes {'true' if value else 'false'}")
         else:
             changed.append(f"{name} {before[name]:.4g} → {value:.4g}")
     return "; ".join(begun or ended or changed)

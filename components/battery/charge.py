@@ -57,7 +57,7 @@ class Particle(ac.Component):
     With ``fixed_start`` all shells start at ``soc_start``; else that is a guess, and the model says where they start.
     """
 
-    ICON = icons.CHARGE
+    ICON = icons.PARTICLE
 
     surface = ChargePort()
     heatPort = HeatPort_a(when="useHeatPort")

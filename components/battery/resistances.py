@@ -37,7 +37,7 @@ class ChargeTransfer(OnePort, PartialDepending):
     logarithm. ``LossPower = v i`` is never negative.
     """
 
-    ICON = icons.RESISTOR
+    ICON = icons.marked(icons.RESISTOR, "ct")
 
     I_0 = ac.Parameter(unit="A", min=0, doc="exchange current at T_ref")
     I_actual = ac.Variable(unit="A", start=1.0, nominal=10.0, doc="actual exchange current")
@@ -57,7 +57,7 @@ class Relaxation(OnePort, PartialDepending):
     all temperatures; so the capacitance is ``tau/R_actual``.
     """
 
-    ICON = icons.RESISTOR
+    ICON = icons.marked(icons.RESISTOR, "RC")
 
     R = ac.Parameter(unit="Ohm", min=0, doc="resistance at T_ref")
     tau = ac.Parameter(unit="s", min=0, doc="time constant")

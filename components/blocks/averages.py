@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import SMALL
 from .interfaces import SISO
@@ -28,6 +29,8 @@ class Mean(SISO):
     starts at ``y0``.
     """
 
+    ICON = icons.block("mean")
+
     f = ac.Parameter(unit="Hz", min=SMALL, doc="base frequency, greater than zero")
     x0 = ac.Parameter(0.0, doc="initial value of the integral")
     y0 = ac.Parameter(0.0, doc="initial value of the output")
@@ -50,6 +53,8 @@ class Mean(SISO):
 
 class RectifiedMean(SISO):
     """Mean of the absolute value of the input over each period ``1/f``."""
+
+    ICON = icons.block("mean |u|")
 
     f = ac.Parameter(unit="Hz", min=SMALL, doc="base frequency, greater than zero")
     x0 = ac.Parameter(0.0, doc="initial value of the integral")
@@ -75,6 +80,8 @@ class _Root(Sqrt):
 class RootMeanSquare(SISO):
     """Root of the mean square of the input over each period ``1/f``."""
 
+    ICON = icons.block("rms")
+
     f = ac.Parameter(unit="Hz", min=SMALL, doc="base frequency, greater than zero")
     x0 = ac.Parameter(0.0, doc="initial value of the integral")
     y0 = ac.Parameter(0.0, min=0, doc="initial value of the output")
@@ -96,6 +103,8 @@ class Harmonic(ac.Component):
 
     With ``useConjugateComplex`` the sign of ``y_arg`` is the opposite.
     """
+
+    ICON = icons.block("harm")
 
     f = ac.Parameter(unit="Hz", min=SMALL, doc="base frequency, greater than zero")
     k = ac.Parameter(1.0, doc="order of the harmonic")
@@ -136,6 +145,8 @@ class TotalHarmonicDistortion(SISO):
     Both are root mean squares over each period ``1/f``. ``valid`` is false during the first period, and for an input
     of zero.
     """
+
+    ICON = icons.block("THD")
 
     f = ac.Parameter(unit="Hz", min=SMALL, doc="base frequency, greater than zero")
     useFirstHarmonic = ac.Option(True, doc="whether the first harmonic is the reference")

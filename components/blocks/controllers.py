@@ -86,7 +86,7 @@ class LimPID(SVcontrol):
     ``homotopyType`` have no effect. Choose options where the controller is made.
     """
 
-    ICON = icons.PID
+    ICON = icons.marked(icons.PID, "lim")
 
     controllerType = ac.Option("PID", choices=_CONTROLLER, doc="type of controller")
     k = ac.Parameter(1.0, min=0, doc="gain")

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import TRUE, truth
 from .interfaces import SISO
@@ -13,6 +14,8 @@ __modelica__ = "Modelica.Blocks.Math"
 class RealToInteger(SISO):
     """The nearest integer; halves are rounded away from zero."""
 
+    ICON = icons.integers(icons.block("R → I"), "y")
+
     def equations(self) -> Iterator[ac.Eq]:
         up, down = (ac.floor(0.5 + u, events=None) for u in (self.u, -self.u))
         rounded = ac.where(self.u > 0, up, -down)
@@ -22,12 +25,16 @@ class RealToInteger(SISO):
 class IntegerToReal(SISO):
     """``y = u``."""
 
+    ICON = icons.integers(icons.block("I → R"), "u")
+
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.u)
 
 
 class BooleanToReal(SISO):
     """``realTrue`` where ``u`` is true, else ``realFalse``."""
+
+    ICON = icons.truths(icons.block("B → R"), "u")
 
     realTrue = ac.Parameter(1.0, doc="output where the input is true")
     realFalse = ac.Parameter(0.0, doc="output where the input is false")
@@ -39,6 +46,8 @@ class BooleanToReal(SISO):
 class BooleanToInteger(SISO):
     """``integerTrue`` where ``u`` is true, else ``integerFalse``."""
 
+    ICON = icons.truths(icons.block("B → I"), "u")
+
     integerTrue = ac.Parameter(1.0, doc="output where the input is true")
     integerFalse = ac.Parameter(0.0, doc="output where the input is false")
 
@@ -49,6 +58,8 @@ class BooleanToInteger(SISO):
 class RealToBoolean(SISO):
     """1 where ``u >= threshold``, else 0."""
 
+    ICON = icons.truths(icons.block("R → B"), "y")
+
     threshold = ac.Parameter(0.5, doc="value from which on the output is true")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -57,6 +68,8 @@ class RealToBoolean(SISO):
 
 class IntegerToBoolean(SISO):
     """1 where ``u >= threshold``, else 0."""
+
+    ICON = icons.truths(icons.block("I → B"), "y")
 
     threshold = ac.Parameter(1.0, doc="value from which on the output is true")
 

@@ -16,7 +16,7 @@ __modelica__ = "Modelica.Blocks.Discrete"
 class Sampler(DiscreteSISO):
     """The input at sample times: ``y = u`` then, and at the start."""
 
-    ICON = icons.HOLD
+    ICON = icons.SAMPLER
 
     y = discrete_output(doc="sampled signal")
 
@@ -43,6 +43,8 @@ class ZeroOrderHold(DiscreteSISO):
 
 class FirstOrderHold(DiscreteSISO):
     """Straight on from the last two samples: ``y = pre_uSample + pre(c) (time - tSample)``."""
+
+    ICON = icons.LINEAR_HOLD
 
     tSample = ac.Discrete(unit="s", doc="last sample time")
     uSample = ac.Discrete(doc="input at the last sample time")
@@ -130,6 +132,8 @@ class TransferFunction(DiscreteSISO):
 class StateSpace(DiscreteMIMO):
     """At sample times ``x = A pre(x) + B u``, ``y = C pre(x) + D u`` with matrices; ``D`` is zero by default."""
 
+    ICON = icons.marked(icons.STATE_SPACE, "z")
+
     A = ac.Parameter([[1.0, 0.0], [0.0, 1.0]], shape=(":", ":"), doc="state matrix")
     B = ac.Parameter([[1.0], [1.0]], shape=(":", ":"), doc="input matrix")
     C = ac.Parameter([[1.0, 1.0]], shape=(":", ":"), doc="output matrix")
@@ -175,6 +179,8 @@ class _Triggered(SISO):
 class TriggeredSampler(_Triggered):
     """The input at the times of a trigger: ``y = u`` then, and ``y_start`` before."""
 
+    ICON = icons.truths(icons.marked(icons.SAMPLER, "trig"), "trigger")
+
     y_start = ac.Parameter(0.0, doc="initial value of the output")
     y = discrete_output("y_start", doc="sampled signal")
 
@@ -184,6 +190,8 @@ class TriggeredSampler(_Triggered):
 
 class TriggeredMax(_Triggered):
     """The greatest absolute value of the input at the times of a trigger so far."""
+
+    ICON = icons.truths(icons.marked(icons.block("max"), "trig"), "trigger")
 
     y = discrete_output(doc="greatest absolute value")
 

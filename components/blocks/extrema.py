@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import SMALL, TRUE, changes, discrete_output, truth
 
@@ -35,6 +36,8 @@ class _Extrema(ac.Component):
 class SignalExtrema(_Extrema):
     """Least and greatest value at the start and every ``Ts`` [s] after it, and when they were reached."""
 
+    ICON = icons.block("extrema")
+
     Ts = ac.Parameter(0.01, unit="s", min=SMALL, doc="time between two looks, greater than zero")
     t0 = ac.Discrete(unit="s", doc="start of the simulation")
 
@@ -49,6 +52,8 @@ class ContinuousSignalExtrema(_Extrema):
     An extremum is where the input crosses its own lag ``x`` with the time constant ``T`` [s], so it is found as much
     late.
     """
+
+    ICON = icons.block("extr(t)")
 
     T = ac.Parameter(1e-6, unit="s", min=SMALL, doc="time constant of the lag, greater than zero")
     x = ac.Variable(state="always", doc="the input with a lag")

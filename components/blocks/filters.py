@@ -53,7 +53,7 @@ class CriticalDamping(SISO):
     ``alpha = sqrt(2**(1/n) - 1)`` makes the amplitude -3 dB at ``f``, or 1 if not ``normalized``.
     """
 
-    ICON = icons.LAG
+    ICON = icons.marked(icons.LAG, "n")
 
     n = ac.Option(2, doc="order of the filter")
     f = ac.Parameter(unit="Hz", doc="cut-off frequency")
@@ -81,7 +81,7 @@ class LowpassButterworth(SISO):
     ``w = 2 pi f``, then for an odd order ``der(xr) = w (z - xr)``; ``z`` is what comes from before.
     """
 
-    ICON = icons.LAG
+    ICON = icons.marked(icons.LOW_PASS, "n")
 
     n = ac.Option(2, doc="order of the filter")
     f = ac.Parameter(unit="Hz", doc="cut-off frequency")
@@ -144,7 +144,7 @@ class Filter(SISO):
     By default it starts in steady state. ``A_ripple`` is fixed when the filter is made.
     """
 
-    ICON = icons.LAG
+    ICON = icons.LOW_PASS
 
     analogFilter = ac.Option("CriticalDamping", choices=CHARACTERISTICS, doc="characteristic")
     filterType = ac.Option("LowPass", choices=_FILTER_TYPE, doc="type of the filter")

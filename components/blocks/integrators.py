@@ -60,7 +60,7 @@ class LimIntegrator(_Resettable):
     ``strict`` and ``limitsAtInit`` have no effect.
     """
 
-    ICON = icons.INTEGRATOR
+    ICON = icons.marked(icons.INTEGRATOR, "lim")
 
     k = ac.Parameter(1.0, doc="gain")
     outMax = ac.Parameter(doc="upper limit")
@@ -96,7 +96,7 @@ class Derivative(SISO, PartialState):
 class Der(SISO):
     """``y = der(u)``: the input must be differentiable in the model."""
 
-    ICON = icons.DERIVATIVE
+    ICON = icons.block("du/dt")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.der(self.u))

@@ -30,7 +30,7 @@ class _Operation(SI2SO):
 class And(_Operation):
     """1 where ``u1`` and ``u2`` are true."""
 
-    ICON = icons.block("and")
+    ICON = icons.truths(icons.block("and"), "u1 u2 y")
 
     def operation(self, first: Any, second: Any) -> Any:
         return first & second
@@ -39,7 +39,7 @@ class And(_Operation):
 class Or(_Operation):
     """1 where ``u1`` or ``u2`` is true, or both."""
 
-    ICON = icons.block("or")
+    ICON = icons.truths(icons.block("or"), "u1 u2 y")
 
     def operation(self, first: Any, second: Any) -> Any:
         return first | second
@@ -48,7 +48,7 @@ class Or(_Operation):
 class Xor(_Operation):
     """1 where either ``u1`` or ``u2`` is true, not both."""
 
-    ICON = icons.block("xor")
+    ICON = icons.truths(icons.block("xor"), "u1 u2 y")
 
     def operation(self, first: Any, second: Any) -> Any:
         return (first & ~second) | (~first & second)
@@ -57,7 +57,7 @@ class Xor(_Operation):
 class Nor(_Operation):
     """1 where neither ``u1`` nor ``u2`` is true."""
 
-    ICON = icons.block("nor")
+    ICON = icons.truths(icons.block("nor"), "u1 u2 y")
 
     def operation(self, first: Any, second: Any) -> Any:
         return ~(first | second)
@@ -66,7 +66,7 @@ class Nor(_Operation):
 class Nand(_Operation):
     """1 unless ``u1`` and ``u2`` are true."""
 
-    ICON = icons.block("nand")
+    ICON = icons.truths(icons.block("nand"), "u1 u2 y")
 
     def operation(self, first: Any, second: Any) -> Any:
         return ~(first & second)
@@ -75,7 +75,7 @@ class Nand(_Operation):
 class Not(SISO):
     """1 where ``u`` is false."""
 
-    ICON = icons.block("not")
+    ICON = icons.truths(icons.block("not"), "u y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u <= TRUE))
@@ -90,7 +90,7 @@ class _Threshold(SISO):
 class GreaterThreshold(_Threshold):
     """1 where ``u > threshold``."""
 
-    ICON = icons.block(">")
+    ICON = icons.truths(icons.block("> k"), "y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u > self.threshold, events=None))
@@ -99,7 +99,7 @@ class GreaterThreshold(_Threshold):
 class GreaterEqualThreshold(_Threshold):
     """1 where ``u >= threshold``."""
 
-    ICON = icons.block("≥")
+    ICON = icons.truths(icons.block("≥ k"), "y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u >= self.threshold, events=None))
@@ -108,7 +108,7 @@ class GreaterEqualThreshold(_Threshold):
 class LessThreshold(_Threshold):
     """1 where ``u < threshold``."""
 
-    ICON = icons.block("<")
+    ICON = icons.truths(icons.block("< k"), "y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u < self.threshold, events=None))
@@ -117,7 +117,7 @@ class LessThreshold(_Threshold):
 class LessEqualThreshold(_Threshold):
     """1 where ``u <= threshold``."""
 
-    ICON = icons.block("≤")
+    ICON = icons.truths(icons.block("≤ k"), "y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u <= self.threshold, events=None))
@@ -126,7 +126,7 @@ class LessEqualThreshold(_Threshold):
 class Greater(SI2SO):
     """1 where ``u1 > u2``."""
 
-    ICON = icons.block(">")
+    ICON = icons.truths(icons.block(">"), "y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u1 > self.u2, events=None))
@@ -135,7 +135,7 @@ class Greater(SI2SO):
 class GreaterEqual(SI2SO):
     """1 where ``u1 >= u2``."""
 
-    ICON = icons.block("≥")
+    ICON = icons.truths(icons.block("≥"), "y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u1 >= self.u2, events=None))
@@ -144,7 +144,7 @@ class GreaterEqual(SI2SO):
 class Less(SI2SO):
     """1 where ``u1 < u2``."""
 
-    ICON = icons.block("<")
+    ICON = icons.truths(icons.block("<"), "y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u1 < self.u2, events=None))
@@ -153,7 +153,7 @@ class Less(SI2SO):
 class LessEqual(SI2SO):
     """1 where ``u1 <= u2``."""
 
-    ICON = icons.block("≤")
+    ICON = icons.truths(icons.block("≤"), "y")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u1 <= self.u2, events=None))
@@ -162,7 +162,7 @@ class LessEqual(SI2SO):
 class Switch(ac.Component):
     """``y = u1`` where ``u2`` is true, else ``y = u3``."""
 
-    ICON = icons.SWITCHED
+    ICON = icons.truths(icons.SWITCHED, "u2")
 
     u1 = ac.Input(doc="output where u2 is true")
     u2 = ac.Input(doc="which input is passed: the first above 0.5, else the third")
@@ -175,3 +175,5 @@ class Switch(ac.Component):
 
 class LogicalSwitch(Switch):
     """A `Switch` for truth values."""
+
+    ICON = icons.truths(icons.SWITCHED, "u1 u2 u3 y")

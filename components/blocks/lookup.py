@@ -22,7 +22,7 @@ class CombiTable1Ds(PartialColumns):
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
 
-    ICON = icons.LOOKUP
+    ICON = icons.marked(icons.LOOKUP, "1s")
 
     u = ac.Input(doc="argument")
     y = ac.Output(shape="nout", doc="values")
@@ -43,7 +43,7 @@ class CombiTable1Dv(PartialColumns, MIMOs):
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
 
-    ICON = icons.LOOKUP
+    ICON = icons.marked(icons.LOOKUP, "1v")
 
     @property
     def n(self) -> int:
@@ -74,7 +74,7 @@ class _Table2D(TableData):
         choices=get_args(surfaces.Extrapolation),
         doc="what holds outside of the table",
     )
-    surface = ac.Module("_surface")
+    surface = ac.Module("_surface", data=True)
 
     def _surface(self, _key: Any) -> surfaces.Surface:
         table = self._rows()
@@ -110,6 +110,8 @@ class CombiTable2Ds(SI2SO, _Table2D):
     ``NoExtrapolation``, which both hold the values at the border.
     """
 
+    ICON = icons.marked(icons.LOOKUP, "2s")
+
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.surface(self.u1, self.u2))
 
@@ -119,6 +121,8 @@ class CombiTable2Dv(MI2MO, _Table2D):
 
     See `CombiTable2Ds`.
     """
+
+    ICON = icons.marked(icons.LOOKUP, "2v")
 
     def equations(self) -> Iterator[ac.Eq]:
         for y, u1, u2 in zip(self.y, self.u1, self.u2, strict=True):

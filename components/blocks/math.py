@@ -1,6 +1,7 @@
 """Mathematical blocks: each output is a function of the inputs at the same time."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import acausal as ac
@@ -14,6 +15,8 @@ __modelica__ = "Modelica.Blocks.Math"
 
 class InverseBlockConstraints(ac.Component):
     """Sets two signals equal, to invert a block between them: ``u1 = u2``, ``y1 = y2``."""
+
+    ICON = icons.block("inverse")
 
     u1 = ac.Input(doc="input signal 1")
     u2 = ac.Input(doc="input signal 2, equal to u1")
@@ -39,7 +42,7 @@ class Gain(SISO):
 class MatrixGain(MIMO):
     """``y = K u`` with a matrix ``K``."""
 
-    ICON = icons.GAIN
+    ICON = replace(icons.GAIN, text="K")
 
     K = ac.Parameter([[1.0, 0.0], [0.0, 1.0]], shape=(":", ":"), doc="gain matrix")
 
@@ -61,7 +64,7 @@ class MatrixGain(MIMO):
 class MultiSum(SO):
     """``y = k[1] u[1] + ... + k[nu] u[nu]``."""
 
-    ICON = icons.SUM
+    ICON = icons.marked(icons.SUM, "n")
 
     nu = ac.Option(0, doc="number of inputs")
     k = ac.Parameter(1.0, shape="nu", doc="gains")
@@ -74,7 +77,7 @@ class MultiSum(SO):
 class MultiProduct(SO):
     """``y = u[1] ... u[nu]``; 0 without inputs."""
 
-    ICON = icons.PRODUCT
+    ICON = icons.marked(icons.PRODUCT, "n")
 
     nu = ac.Option(0, doc="number of inputs")
     u = ac.Input(shape="nu", doc="input signals")
@@ -121,7 +124,7 @@ class Add(SI2SO):
 class Add3(SI2SO):
     """``y = k1 u1 + k2 u2 + k3 u3``."""
 
-    ICON = icons.ADD
+    ICON = icons.marked(icons.ADD, "3")
 
     k1 = ac.Parameter(1.0, doc="gain of u1")
     k2 = ac.Parameter(1.0, doc="gain of u2")
@@ -134,6 +137,8 @@ class Add3(SI2SO):
 
 class LinearDependency(SI2SO):
     """``y = y0 + k1 u1 + k2 u2``."""
+
+    ICON = icons.block("a + bu")
 
     y0 = ac.Parameter(0.0, doc="constant")
     k1 = ac.Parameter(0.0, doc="gain of u1")
@@ -164,6 +169,8 @@ class Division(SI2SO):
 class Polynomial(SISO):
     """``y = c[1] u**n + ... + c[n] u + c[n+1]``: coefficients from the highest power down."""
 
+    ICON = icons.block("p(u)")
+
     __modelica__ = None
 
     c = ac.Parameter(shape=":", doc="coefficients, highest power first")
@@ -177,6 +184,8 @@ class Polynomial(SISO):
 
 class MultiSwitch(Switching):
     """The value in ``expr`` that belongs to the first input that is true, else ``y_default``."""
+
+    ICON = icons.marked(icons.SWITCHED, "n")
 
     y_default = ac.Parameter(0.0, doc="output where no input is true")
     precision = ac.Option(3, doc="without effect")
@@ -334,6 +343,8 @@ class Log10(SISO):
 class Power(SISO):
     """``y = base**u``, computed as ``exp(u log(base))``; ``useExp`` has no effect."""
 
+    ICON = icons.block("bᵘ")
+
     base = ac.Parameter(2.718281828459045, min=0, doc="base of the power")
     useExp = ac.Option(True, doc="without effect")
 
@@ -344,6 +355,8 @@ class Power(SISO):
 class Exponentiation(SISO):
     """``y = u**exponent``; ``u > 0`` unless the exponent is a whole number."""
 
+    ICON = icons.block("uⁿ")
+
     exponent = ac.Option(2, doc="exponent")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -353,6 +366,8 @@ class Exponentiation(SISO):
 
 class WrapAngle(SISO):
     """The angle ``u`` [rad] in ``]-pi, pi]``, or in ``[0, 2 pi[`` with ``positiveRange``."""
+
+    ICON = icons.block("±π")
 
     positiveRange = ac.Option(False, doc="whether to wrap to [0, 2 pi[")
     u = ac.Input(unit="rad", doc="angle")
@@ -369,6 +384,8 @@ class WrapAngle(SISO):
 class RectangularToPolar(ac.Component):
     """``y_abs = sqrt(u_re**2 + u_im**2)``, ``y_arg = atan2(u_im, u_re)`` [rad]."""
 
+    ICON = icons.block("xy → ∠")
+
     u_re = ac.Input(doc="real part")
     u_im = ac.Input(doc="imaginary part")
     y_abs = ac.Output(doc="length")
@@ -382,6 +399,8 @@ class RectangularToPolar(ac.Component):
 class PolarToRectangular(ac.Component):
     """``y_re = u_abs cos(u_arg)``, ``y_im = u_abs sin(u_arg)``, the angle in rad."""
 
+    ICON = icons.block("∠ → xy")
+
     u_abs = ac.Input(doc="length")
     u_arg = ac.Input(unit="rad", doc="angle")
     y_re = ac.Output(doc="real part")
@@ -394,6 +413,8 @@ class PolarToRectangular(ac.Component):
 
 class Pythagoras(SI2SO):
     """``y = sqrt(u1**2 + u2**2)``; with ``u1IsHypotenuse`` ``sqrt(u1**2 - u2**2)``, 0 if negative."""
+
+    ICON = icons.block("√Σu²")
 
     u1IsHypotenuse = ac.Option(False, doc="whether u1 is the hypotenuse")
     valid = ac.Output(doc="whether the output is valid, 1 or 0")
@@ -430,6 +451,8 @@ class Min(SI2SO):
 
 class MinMax(ac.Component):
     """``yMax`` and ``yMin`` are the greatest and the smallest of the ``nu`` inputs ``u``."""
+
+    ICON = icons.block("min max")
 
     nu = ac.Option(0, doc="number of inputs")
     u = ac.Input(shape="nu", doc="input signals")

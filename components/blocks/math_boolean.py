@@ -6,6 +6,7 @@ from operator import and_, or_
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from . import logical, memory
 from .conventions import TRUE, discrete_output, truth
@@ -19,6 +20,8 @@ class MultiSwitch(Switching):
 
     Without one, the previous output with ``use_pre_as_default``, else ``y_default``.
     """
+
+    ICON = icons.marked(icons.SWITCHED, "n")
 
     use_pre_as_default = ac.Option(True, doc="whether the output is kept where no input is true")
     y_default = ac.Option(False, doc="output where no input is true, and before the start")
@@ -43,6 +46,8 @@ class _Operation(PartialBooleanMISO):
 class And(_Operation):
     """True where all inputs are true."""
 
+    ICON = icons.truths(icons.block("and"), "u y")
+
     def _holds(self, inputs: Sequence[Any]) -> Any:
         return reduce(and_, inputs, True)
 
@@ -50,12 +55,16 @@ class And(_Operation):
 class Or(_Operation):
     """True where any input is true."""
 
+    ICON = icons.truths(icons.block("or"), "u y")
+
     def _holds(self, inputs: Sequence[Any]) -> Any:
         return reduce(or_, inputs, False)
 
 
 class Xor(_Operation):
     """True where exactly one input is true."""
+
+    ICON = icons.truths(icons.block("xor"), "u y")
 
     def _holds(self, inputs: Sequence[Any]) -> Any:
         others = [[~u for u in inputs if u is not one] for one in inputs]
@@ -65,12 +74,16 @@ class Xor(_Operation):
 class Nand(And):
     """True where any input is false."""
 
+    ICON = icons.truths(icons.block("nand"), "u y")
+
     def _holds(self, inputs: Sequence[Any]) -> Any:
         return negated(super()._holds(inputs))
 
 
 class Nor(Or):
     """True where all inputs are false."""
+
+    ICON = icons.truths(icons.block("nor"), "u y")
 
     def _holds(self, inputs: Sequence[Any]) -> Any:
         return negated(super()._holds(inputs))
@@ -83,17 +96,25 @@ class Not(logical.Not):
 class RisingEdge(memory.Edge):
     """True at the moment the input turns true."""
 
+    ICON = icons.truths(icons.block("↑"), "u y")
+
 
 class FallingEdge(memory.FallingEdge):
     """True at the moment the input turns false."""
+
+    ICON = icons.truths(icons.block("↓"), "u y")
 
 
 class ChangingEdge(memory.Change):
     """True at the moment the input changes."""
 
+    ICON = icons.truths(icons.marked(icons.block("↕"), "m"), "u y")
+
 
 class OnDelay(SISO):
     """The input, a rise ``delayTime`` [s] late, a fall at once."""
+
+    ICON = icons.truths(icons.block("t →"), "u y")
 
     delayTime = ac.Parameter(unit="s", min=0, doc="delay of a rise")
     delaySignal = ac.Discrete(kind="bool", doc="whether a rise is waited for, or has come")

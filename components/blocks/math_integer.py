@@ -19,6 +19,8 @@ class MultiSwitch(Switching):
     Without one, the previous output with ``use_pre_as_default``, else ``y_default``.
     """
 
+    ICON = icons.marked(icons.SWITCHED, "n")
+
     use_pre_as_default = ac.Option(True, doc="whether the output is kept where no input is true")
     y_default = ac.Parameter(0.0, doc="output where no input is true, and before the start")
     y = discrete_output("y_default", kind="int", doc="output signal")
@@ -32,13 +34,13 @@ class MultiSwitch(Switching):
 class Sum(math.MultiSum):
     """``y = k[1] u[1] + ... + k[nu] u[nu]``."""
 
-    ICON = icons.SUM
+    ICON = icons.integers(icons.SUM, "u y")
 
 
 class Product(math.MultiProduct):
     """``y = u[1] ... u[nu]``; 0 without inputs."""
 
-    ICON = icons.PRODUCT
+    ICON = icons.integers(icons.PRODUCT, "u y")
 
 
 class TriggeredAdd(SISO):
@@ -47,6 +49,8 @@ class TriggeredAdd(SISO):
     With ``use_reset`` the output becomes ``y_start`` where ``reset`` turns true, or with ``use_set`` the input
     ``set``.
     """
+
+    ICON = icons.block("+=")
 
     use_reset = ac.Option(False, doc="whether there is the input reset")
     use_set = ac.Option(False, doc="whether there is the input set")

@@ -26,6 +26,8 @@ class _Remembering(SISO):
 class Pre(_Remembering):
     """The input just before an event, ``pre(u)``: it breaks loops of logical blocks."""
 
+    ICON = icons.truths(icons.block("pre"), "u y")
+
     def equations(self) -> Iterator[Any]:
         yield from super().equations()
         yield ac.Eq(self.y, ac.pre(self.held))
@@ -33,6 +35,8 @@ class Pre(_Remembering):
 
 class Edge(_Remembering):
     """True at the moment the input turns true."""
+
+    ICON = icons.truths(icons.block("↑"), "u y")
 
     __modelica__ = ("Modelica.Blocks.Logical", "Modelica.Blocks.Math")
 
@@ -44,6 +48,8 @@ class Edge(_Remembering):
 class FallingEdge(_Remembering):
     """True at the moment the input turns false."""
 
+    ICON = icons.truths(icons.block("↓"), "u y")
+
     def equations(self) -> Iterator[Any]:
         yield from super().equations()
         yield ac.Eq(self.y, truth((self.held <= TRUE) & (ac.pre(self.held) > TRUE)))
@@ -51,6 +57,8 @@ class FallingEdge(_Remembering):
 
 class Change(_Remembering):
     """True at the moment the input changes."""
+
+    ICON = icons.truths(icons.block("↕"), "u y")
 
     def equations(self) -> Iterator[Any]:
         yield from super().equations()
@@ -60,11 +68,15 @@ class Change(_Remembering):
 class BooleanChange(Change):
     """True at the moment the input changes."""
 
+    ICON = icons.truths(icons.block("change"), "u y")
+
     __modelica__ = "Modelica.Blocks.Math"
 
 
 class IntegerChange(SISO):
     """True at the moment the input, an integer, changes."""
+
+    ICON = icons.truths(icons.block("Δi"), "y")
 
     __modelica__ = "Modelica.Blocks.Math"
 
@@ -78,6 +90,8 @@ class IntegerChange(SISO):
 
 class ZeroCrossing(SISO):
     """True at the moment the input crosses zero while ``enable`` is true, unless that changes just then."""
+
+    ICON = icons.truths(icons.CROSSING, "y enable")
 
     enable = ac.Input(doc="whether crossings are looked for")
     enabled = ac.Discrete(kind="bool", doc="whether enable is true")
@@ -117,6 +131,8 @@ class Hysteresis(_TwoPoint):
 class OnOffController(_TwoPoint):
     """On where ``u`` falls below ``reference - bandwidth/2``, off where it rises above ``reference + bandwidth/2``."""
 
+    ICON = icons.marked(icons.HYSTERESIS, "r")
+
     bandwidth = ac.Parameter(doc="distance of the two levels")
     reference = ac.Input(doc="set point")
     u = ac.Input(doc="measurement")
@@ -132,6 +148,8 @@ class TriggeredTrapezoid(ac.Component):
 
     An edge before the end of the rise or fall starts from the value reached.
     """
+
+    ICON = icons.truths(icons.marked(icons.TRAPEZOID, "trig"), "u")
 
     amplitude = ac.Parameter(1.0, doc="height of the trapezoid")
     rising = ac.Parameter(0.0, unit="s", min=0, doc="duration of the rise")
@@ -174,6 +192,8 @@ class TriggeredTrapezoid(ac.Component):
 class Timer(SISO):
     """The time since the input turned true, 0 while it is false."""
 
+    ICON = icons.truths(icons.block("timer"), "u")
+
     entryTime = ac.Discrete(unit="s", doc="when the input turned true")
     y = ac.Output(unit="s", doc="time since then")
 
@@ -184,6 +204,8 @@ class Timer(SISO):
 
 class LogicalDelay(ac.Component):
     """The input with a delay: ``y1`` turns false, ``y2`` true only ``delayTime`` [s] after it."""
+
+    ICON = icons.truths(icons.block("t"), "u y1 y2")
 
     delayTime = ac.Parameter(0.0, unit="s", min=0, doc="delay")
     u = ac.Input(doc="input signal")
@@ -205,6 +227,8 @@ class LogicalDelay(ac.Component):
 
 class RSFlipFlop(ac.Component):
     """Memory: ``Q`` turns true where ``S`` is, false where ``R`` is; ``QI`` is its opposite."""
+
+    ICON = icons.truths(icons.block("RS"), "S R Q QI")
 
     Qini = ac.Option(False, doc="truth value of Q at the start")
     S = ac.Input(doc="sets")
@@ -232,6 +256,8 @@ class TerminateSimulation(ac.Component):
     stated by an equation of the enclosing model.
     """
 
+    ICON = icons.truths(icons.block("stop"), "u")
+
     terminationText = ac.Option("... End condition reached", doc="without effect")
     condition = ac.Output(doc="when the simulation should end, 1 or 0")
     terminated = ac.Discrete(kind="bool", doc="whether the condition has come true")
@@ -251,6 +277,8 @@ class AssertCondition(ac.Component):
 
     A simulation goes on (Modelica's stops, or warns): look at ``failed`` where ``message`` matters to you.
     """
+
+    ICON = icons.block("!")
 
     message = ac.Option("Assert block failed", doc="what it means if the input is false")
     assertionLevel = ac.Option("error", choices=("error", "warning"), doc="without effect")

@@ -66,7 +66,7 @@ class KinematicPTP(MO):
     one distance must not be zero.
     """
 
-    ICON = icons.RAMP
+    ICON = icons.POINT_TO_POINT
 
     deltaq = ac.Parameter([1.0], shape=":", doc="distance to move")
     qd_max = ac.Parameter([1.0], shape=":", min=0, doc="greatest speed")
@@ -93,7 +93,7 @@ class KinematicPTP2(ac.Component):
     the motion stops. The output ``moving`` of Modelica is Boolean and not there.
     """
 
-    ICON = icons.RAMP
+    ICON = icons.S_CURVE
 
     q_begin = ac.Parameter([0.0], shape=":", doc="start position")
     q_end = ac.Parameter([1.0], shape=":", doc="end position")

@@ -11,6 +11,7 @@ from jax.scipy.special import ndtr, ndtri
 from scipy.special import ndtri as exact_ndtri
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import SMALL
 from .generator import uniform
@@ -27,6 +28,8 @@ class GlobalSeed(ac.Component):
 
     Without one the seed is ``fixedSeed`` as here. ``enableNoise=False`` makes all noise constant.
     """
+
+    ICON = icons.block("seed")
 
     enableNoise = ac.Option(True, doc="whether noise blocks give noise")
     useAutomaticSeed = ac.Option(
@@ -53,7 +56,7 @@ class PartialNoise(SO):
     fixedLocalSeed = ac.Option(1, doc="local seed otherwise, any whole number")
     startTime = ac.Parameter(0.0, unit="s", doc="time of the first number")
     length = ac.Option(2**15, doc="numbers until they repeat")
-    numbers = ac.Module("_numbers", doc="numbers over the count of samples")
+    numbers = ac.Module("_numbers", data=True, doc="numbers over the count of samples")
 
     @property
     def _global(self) -> GlobalSeed:
@@ -95,6 +98,8 @@ class PartialNoise(SO):
 class UniformNoise(PartialNoise):
     """Numbers that are equally likely between ``y_min`` and ``y_max``."""
 
+    ICON = icons.marked(icons.NOISE, "U")
+
     y_min = ac.Parameter(0.0, doc="least value")
     y_max = ac.Parameter(1.0, doc="greatest value")
 
@@ -112,6 +117,8 @@ class _Normal(PartialNoise):
 class NormalNoise(_Normal):
     """Numbers of a normal distribution with the mean ``mu`` and the standard deviation ``sigma``."""
 
+    ICON = icons.marked(icons.NOISE, "N")
+
     mu = ac.Parameter(0.0, doc="mean")
     sigma = ac.Parameter(1.0, min=0, doc="standard deviation")
 
@@ -124,6 +131,8 @@ class BandLimitedWhiteNoise(_Normal):
 
     Its standard deviation is ``sqrt(noisePower/samplePeriod)``.
     """
+
+    ICON = icons.NOISE
 
     noisePower = ac.Parameter(1.0, min=0, doc="power of the noise, per hertz and both sides")
 
@@ -143,13 +152,15 @@ class _Truncated(eqx.Module):
 class TruncatedNormalNoise(PartialNoise):
     """Numbers of a normal distribution, ``mu`` and ``sigma``, of which only ``y_min`` to ``y_max`` is left."""
 
+    ICON = icons.marked(icons.NOISE, "TN")
+
     y_min = ac.Parameter(0.0, doc="least value")
     y_max = ac.Parameter(1.0, doc="greatest value")
     mu = ac.Parameter(lambda self: (self.y_max + self.y_min) / 2, doc="mean before it is cut")
     sigma = ac.Parameter(
         lambda self: (self.y_max - self.y_min) / 6, min=0, doc="standard deviation before it is cut"
     )
-    quantile = ac.Module(lambda _key: _Truncated(), doc="normal quantile between limits")
+    quantile = ac.Module(lambda _key: _Truncated(), data=True, doc="normal quantile between limits")
 
     def _noise(self, number: Any) -> Any:
         limits = ((limit - self.mu) / self.sigma for limit in (self.y_min, self.y_max))

@@ -35,7 +35,7 @@ class VariableLimiter(SISO):
     ``strict``, ``homotopyType`` and ``ySimplified`` have no effect.
     """
 
-    ICON = icons.LIMITER
+    ICON = icons.marked(icons.LIMITER, "u")
 
     strict = ac.Option(False, doc="without effect")
     homotopyType = ac.Option("Linear", doc="without effect")
@@ -66,7 +66,7 @@ class SlewRateLimiter(PartialStart, SISO):
     ``SteadyState``: the output starts at the input, ``y = u``. ``strict`` has no effect.
     """
 
-    ICON = icons.LIMITER
+    ICON = icons.SLEW
 
     Rising = ac.Parameter(1.0, min=0, doc="greatest rate, in units of the signal per second")
     Falling = ac.Parameter(lambda self: -self.Rising, max=0, doc="least rate")

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import MIMO, MISO, SIMO, SISO, MIMOs
 
@@ -12,6 +13,8 @@ __modelica__ = "Modelica.Blocks.Routing"
 
 class Replicator(SIMO):
     """``nout`` times the input: ``y[i] = u``."""
+
+    ICON = icons.FAN_OUT
 
     def equations(self) -> Iterator[ac.Eq]:
         for y in self.y:
@@ -24,6 +27,8 @@ IntegerReplicator = BooleanReplicator = Replicator
 class RealPassThrough(SISO):
     """``y = u``."""
 
+    ICON = icons.block("→")
+
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.u)
 
@@ -33,6 +38,8 @@ IntegerPassThrough = BooleanPassThrough = RealPassThrough
 
 class ExtractSignal(MIMO):
     """``y[i] = u[extract[i]]``; ``extract`` counts from 1 and is ``1, 2, ..., nout`` by default."""
+
+    ICON = icons.block("[i, j]")
 
     nin = ac.Option(1, doc="number of inputs")
     nout = ac.Option(1, doc="number of outputs")
@@ -55,6 +62,8 @@ class Extractor(MISO):
     nearest input (Modelica stops there).
     """
 
+    ICON = icons.block("[i]")
+
     allowOutOfRange = ac.Option(False, doc="whether the index may leave its range")
     outOfRangeValue = ac.Parameter(1e10, doc="output where it does")
     index = ac.Input(start=1.0, doc="number of the input that is passed on")
@@ -72,6 +81,8 @@ class Extractor(MISO):
 class Multiplex(MIMOs):
     """``n`` scalar inputs as one vector: ``y = u``."""
 
+    ICON = icons.marked(icons.FAN_IN, "n")
+
     n = ac.Option(0, doc="number of inputs and of outputs")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -82,9 +93,13 @@ class Multiplex(MIMOs):
 class DeMultiplex(Multiplex):
     """A vector as ``n`` scalar outputs: ``y = u``."""
 
+    ICON = icons.marked(icons.FAN_OUT, "n")
+
 
 class Multiplex2(ac.Component):
     """Vectors ``u1``, ``u2`` of ``n1``, ``n2`` signals as one: ``y = [u1; u2]``."""
+
+    ICON = icons.marked(icons.FAN_IN, "2")
 
     n1 = ac.Option(1, doc="size of u1")
     n2 = ac.Option(1, doc="size of u2")
@@ -110,6 +125,8 @@ class Multiplex2(ac.Component):
 class Multiplex3(Multiplex2):
     """Vectors ``u1`` to ``u3`` as one."""
 
+    ICON = icons.marked(icons.FAN_IN, "3")
+
     n3 = ac.Option(1, doc="size of u3")
     u3 = ac.Input(shape="n3", doc="third input signals")
 
@@ -120,6 +137,8 @@ class Multiplex3(Multiplex2):
 
 class Multiplex4(Multiplex3):
     """Vectors ``u1`` to ``u4`` as one."""
+
+    ICON = icons.marked(icons.FAN_IN, "4")
 
     n4 = ac.Option(1, doc="size of u4")
     u4 = ac.Input(shape="n4", doc="fourth input signals")
@@ -132,6 +151,8 @@ class Multiplex4(Multiplex3):
 class Multiplex5(Multiplex4):
     """Vectors ``u1`` to ``u5`` as one."""
 
+    ICON = icons.marked(icons.FAN_IN, "5")
+
     n5 = ac.Option(1, doc="size of u5")
     u5 = ac.Input(shape="n5", doc="fifth input signals")
 
@@ -143,6 +164,8 @@ class Multiplex5(Multiplex4):
 class Multiplex6(Multiplex5):
     """Vectors ``u1`` to ``u6`` as one."""
 
+    ICON = icons.marked(icons.FAN_IN, "6")
+
     n6 = ac.Option(1, doc="size of u6")
     u6 = ac.Input(shape="n6", doc="sixth input signals")
 
@@ -153,6 +176,8 @@ class Multiplex6(Multiplex5):
 
 class DeMultiplex2(ac.Component):
     """A vector taken apart into ``y1``, ``y2`` of ``n1``, ``n2`` signals: ``[y1; y2] = u``."""
+
+    ICON = icons.marked(icons.FAN_OUT, "2")
 
     n1 = ac.Option(1, doc="size of y1")
     n2 = ac.Option(1, doc="size of y2")
@@ -178,6 +203,8 @@ class DeMultiplex2(ac.Component):
 class DeMultiplex3(DeMultiplex2):
     """A vector taken apart into ``y1`` to ``y3``."""
 
+    ICON = icons.marked(icons.FAN_OUT, "3")
+
     n3 = ac.Option(1, doc="size of y3")
     y3 = ac.Output(shape="n3", doc="the next")
 
@@ -188,6 +215,8 @@ class DeMultiplex3(DeMultiplex2):
 
 class DeMultiplex4(DeMultiplex3):
     """A vector taken apart into ``y1`` to ``y4``."""
+
+    ICON = icons.marked(icons.FAN_OUT, "4")
 
     n4 = ac.Option(1, doc="size of y4")
     y4 = ac.Output(shape="n4", doc="the next")
@@ -200,6 +229,8 @@ class DeMultiplex4(DeMultiplex3):
 class DeMultiplex5(DeMultiplex4):
     """A vector taken apart into ``y1`` to ``y5``."""
 
+    ICON = icons.marked(icons.FAN_OUT, "5")
+
     n5 = ac.Option(1, doc="size of y5")
     y5 = ac.Output(shape="n5", doc="the next")
 
@@ -210,6 +241,8 @@ class DeMultiplex5(DeMultiplex4):
 
 class DeMultiplex6(DeMultiplex5):
     """A vector taken apart into ``y1`` to ``y6``."""
+
+    ICON = icons.marked(icons.FAN_OUT, "6")
 
     n6 = ac.Option(1, doc="size of y6")
     y6 = ac.Output(shape="n6", doc="the last")

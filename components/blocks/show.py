@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import truth_of
 
@@ -15,6 +16,8 @@ class RealValue(ac.Component):
 
     The number is given, or stated by an equation of the enclosing model.
     """
+
+    ICON = icons.block("1.23")
 
     use_numberPort = ac.Option(True, doc="whether there is the input numberPort")
     significantDigits = ac.Option(2, doc="without effect")
@@ -35,12 +38,16 @@ class RealValue(ac.Component):
 class IntegerValue(RealValue):
     """A `RealValue` for integers."""
 
+    ICON = icons.integers(icons.block("123"), "numberPort")
+
 
 class BooleanValue(ac.Component):
     """``showActive`` is the input ``activePort``, or without ``use_activePort`` the truth value ``active``.
 
     That is given, or stated by an equation of the enclosing model.
     """
+
+    ICON = icons.truths(icons.block("true"), "activePort")
 
     use_activePort = ac.Option(True, doc="whether there is the input activePort")
     activePort = ac.Input(when="use_activePort", doc="what is shown")

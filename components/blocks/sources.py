@@ -81,7 +81,7 @@ class Ramp(SignalSource):
 class LogFrequencySweep(SO):
     """From ``wMin`` to ``wMax`` during ``duration`` [s], with a logarithm that is linear in time."""
 
-    ICON = icons.SINE
+    ICON = icons.CHIRP
 
     wMin = ac.Parameter(min=0, doc="start frequency")
     wMax = ac.Parameter(min=0, doc="end frequency")

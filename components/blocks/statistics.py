@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import SISO
 
@@ -16,6 +17,8 @@ class ContinuousMean(SISO):
     During the first ``t_eps`` [s] the output is the input. ``t_0``, Modelica's start time of the
     simulation, is a parameter here.
     """
+
+    ICON = icons.block("mean(t)")
 
     t_eps = ac.Parameter(1e-7, unit="s", min=0, doc="averaging begins so long after t_0")
     t_0 = ac.Parameter(0.0, unit="s", doc="start time")
@@ -37,6 +40,8 @@ class Variance(SISO):
     ``der(var) = ((u - mu)**2 - var)/(time - t_0)``, ``y = max(var, 0)``; it is 0 during the first
     ``t_eps`` [s].
     """
+
+    ICON = icons.block("σ²")
 
     t_eps = ac.Parameter(1e-7, unit="s", min=0, doc="averaging begins so long after t_0")
     t_0 = ac.Parameter(0.0, unit="s", doc="start time")
@@ -60,6 +65,8 @@ class Variance(SISO):
 
 class StandardDeviation(Variance):
     """Square root of the `Variance` of the input since ``t_0`` [s]."""
+
+    ICON = icons.block("σ")
 
     def _output(self, variance: Any) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.sqrt(variance))

@@ -31,6 +31,8 @@ class TableData(ac.Component):
     after ``nHeaderLines`` lines, or a ``.mat`` file of MATLAB up to version 7.
     """
 
+    ICON = icons.block("data")
+
     __modelica__ = None
 
     FORM: ClassVar = ("[[t, y, ...], ...]", (1, 2))
@@ -94,7 +96,7 @@ class TimeTable(SO, _TimeTable):
     """
 
     offset = ac.Parameter(0.0, doc="offset of the output")
-    column = ac.Module("_column")
+    column = ac.Module("_column", data=True)
 
     def _column(self, key: Any) -> ac.Signal:
         return interpolant(self._rows(), "LinearSegments", "LastTwoPoints", "table", key)
@@ -130,7 +132,9 @@ class PartialColumns(TableData):
 
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
-        self.column: Any = [ac.Module(partial(self._column, i)) for i in range(len(self._columns))]
+        self.column: Any = [
+            ac.Module(partial(self._column, i), data=True) for i in range(len(self._columns))
+        ]
 
     @property
     def _columns(self) -> Sequence[int]:
@@ -154,6 +158,8 @@ class CombiTimeTable(PartialColumns, MO, _TimeTable):
 
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
+
+    ICON = icons.marked(icons.TABLE, "n")
 
     timeEvents = ac.Option(
         "Always", choices=_TIME_EVENTS, doc="where steps end in models with events"
@@ -193,7 +199,7 @@ class SampledSignal(SO):
     The samples are a module, ``signal``, among the model's parameters.
     """
 
-    ICON = icons.TABLE
+    ICON = icons.SAMPLES
 
     __modelica__ = None
 
@@ -203,7 +209,7 @@ class SampledSignal(SO):
     startTime = ac.Option(0.0, doc="time of the first sample, with dt")
     interpolation = ac.Option("linear", choices=_INTERPOLATION)
     extrapolation = ac.Option("hold", choices=("hold", "linear", "periodic"))
-    signal = ac.Module("_signal")
+    signal = ac.Module("_signal", data=True)
 
     def _signal(self, key: Any) -> ac.Signal:
         if self.values is None or (self.ts is None) == (self.dt is None):

@@ -23,7 +23,7 @@ _ALWAYS = -1e60
 class BooleanConstant(SO):
     """``k`` at all times."""
 
-    ICON = icons.CONSTANT
+    ICON = icons.truths(icons.CONSTANT, "y")
 
     k = ac.Option(True, doc="constant truth value")
 
@@ -34,7 +34,7 @@ class BooleanConstant(SO):
 class IntegerConstant(SO):
     """``y = k``, an integer."""
 
-    ICON = icons.CONSTANT
+    ICON = icons.integers(icons.CONSTANT, "y")
 
     k = ac.Parameter(doc="constant value")
 
@@ -45,7 +45,7 @@ class IntegerConstant(SO):
 class BooleanStep(SO):
     """``startValue`` before ``startTime`` [s], then the opposite."""
 
-    ICON = icons.STEP
+    ICON = icons.truths(icons.STEP, "y")
 
     startTime = ac.Parameter(0.0, unit="s", doc="time of the step")
     startValue = ac.Option(False, doc="truth value before")
@@ -58,7 +58,7 @@ class BooleanStep(SO):
 class IntegerStep(SO):
     """``y = offset`` before ``startTime`` [s], then ``offset + height``."""
 
-    ICON = icons.STEP
+    ICON = icons.integers(icons.STEP, "y")
 
     height = ac.Parameter(1.0, doc="height of the step")
     offset = ac.Parameter(0.0, doc="offset of the output")
@@ -72,7 +72,7 @@ class IntegerStep(SO):
 class BooleanPulse(SO):
     """True during the first ``width`` percent of every period from ``startTime`` [s] on."""
 
-    ICON = icons.PULSE
+    ICON = icons.truths(icons.PULSE, "y")
 
     width = ac.Parameter(50.0, min=0, max=100, doc="width of a pulse in percent of the period")
     period = ac.Parameter(unit="s", min=SMALL, doc="duration of a period")
@@ -87,6 +87,8 @@ class BooleanPulse(SO):
 class BooleanExpression(SO):
     """A number or an expression of `acausal.time`, 1 or 0: ``BooleanExpression(y=1)``."""
 
+    ICON = icons.truths(icons.EXPRESSION, "y")
+
     def __init__(self, *, y: Any = None, **modifiers: Any) -> None:
         super().__init__(**modifiers)
         self.expression = int(y) if isinstance(y, bool) else y
@@ -98,6 +100,8 @@ class BooleanExpression(SO):
 
 class IntegerExpression(BooleanExpression):
     """A number or an expression of `acausal.time` whose values are integers."""
+
+    ICON = icons.integers(icons.EXPRESSION, "y")
 
 
 class _Table(SO):
@@ -138,6 +142,8 @@ class _Table(SO):
 class BooleanTable(_Table):
     """``startValue``, which turns into its opposite at every time of ``table`` [s]."""
 
+    ICON = icons.truths(icons.TABLE, "y")
+
     table = ac.Option((0.0, 1.0), doc="times at which the output changes")
     startValue = ac.Option(False, doc="truth value before the first time")
 
@@ -152,6 +158,8 @@ class BooleanTable(_Table):
 class IntegerTable(_Table):
     """Steps: from each time [s] in ``table``'s rows ``[t, y]`` on the value beside it."""
 
+    ICON = icons.integers(icons.TABLE, "y")
+
     table = ac.Option(None, doc="rows of time and value")
 
     def _steps(self) -> tuple[float, Sequence[tuple[float, float]]]:
@@ -164,7 +172,7 @@ class IntegerTable(_Table):
 class SampleTrigger(SO):
     """True at ``startTime + k period`` [s], k = 0, 1, ..., and false otherwise."""
 
-    ICON = icons.PULSE
+    ICON = icons.truths(icons.SPIKES, "y")
 
     period = ac.Parameter(unit="s", min=SMALL, doc="sample period, greater than zero")
     startTime = ac.Parameter(0.0, unit="s", doc="first sample time")
@@ -179,6 +187,8 @@ class RadioButtonSource(ac.Component):
     Where both happen at once, it is on. ``reset`` is a list of truth values, or equations of the enclosing model state
     its ``nReset`` elements, such as the ``on`` of other buttons.
     """
+
+    ICON = icons.block("on")
 
     nReset = ac.Option(1, doc="number of elements of reset")
     reset = ac.Variable(shape="nReset", doc="truth values that turn the button off")

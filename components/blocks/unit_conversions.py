@@ -7,6 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import SISO
 
@@ -31,6 +32,8 @@ class PartialConversionBlock(SISO):
 class To_degC(PartialConversionBlock):
     """Kelvin to degrees Celsius: ``y = u - 273.15``."""
 
+    ICON = icons.block("→ °C")
+
     u = ac.Input(doc="temperature in K")
     y = ac.Output(unit="degC", doc="temperature")
     shift = -273.15
@@ -39,6 +42,8 @@ class To_degC(PartialConversionBlock):
 class From_degC(PartialConversionBlock):
     """Degrees Celsius to kelvin: ``y = u + 273.15``."""
 
+    ICON = icons.block("°C →")
+
     u = ac.Input(doc="temperature in degC")
     y = ac.Output(unit="K", doc="temperature")
     shift = 273.15
@@ -46,6 +51,8 @@ class From_degC(PartialConversionBlock):
 
 class To_degF(PartialConversionBlock):
     """Kelvin to degrees Fahrenheit: ``y = 9/5 u - 459.67``."""
+
+    ICON = icons.block("→ °F")
 
     u = ac.Input(doc="temperature in K")
     y = ac.Output(unit="degF", doc="temperature")
@@ -56,6 +63,8 @@ class To_degF(PartialConversionBlock):
 class From_degF(PartialConversionBlock):
     """Degrees Fahrenheit to kelvin: ``y = 5/9 (u + 459.67)``."""
 
+    ICON = icons.block("°F →")
+
     u = ac.Input(doc="temperature in degF")
     y = ac.Output(unit="K", doc="temperature")
     factor = 5 / 9
@@ -65,6 +74,8 @@ class From_degF(PartialConversionBlock):
 class To_degRk(PartialConversionBlock):
     """Kelvin to degrees Rankine: ``y = 9/5 u``."""
 
+    ICON = icons.block("→ °R")
+
     u = ac.Input(doc="temperature in K")
     y = ac.Output(unit="degR", doc="temperature")
     factor = 9 / 5
@@ -72,6 +83,8 @@ class To_degRk(PartialConversionBlock):
 
 class From_degRk(PartialConversionBlock):
     """Degrees Rankine to kelvin: ``y = 5/9 u``."""
+
+    ICON = icons.block("°R →")
 
     u = ac.Input(doc="temperature in degR")
     y = ac.Output(unit="K", doc="temperature")
@@ -81,6 +94,8 @@ class From_degRk(PartialConversionBlock):
 class To_deg(PartialConversionBlock):
     """Radians to degrees."""
 
+    ICON = icons.block("→ deg")
+
     u = ac.Input(doc="angle in rad")
     y = ac.Output(unit="deg", doc="angle")
     factor = 180 / np.pi
@@ -88,6 +103,8 @@ class To_deg(PartialConversionBlock):
 
 class From_deg(PartialConversionBlock):
     """Degrees to radians."""
+
+    ICON = icons.block("deg →")
 
     u = ac.Input(doc="angle in deg")
     y = ac.Output(unit="rad", doc="angle")
@@ -97,6 +114,8 @@ class From_deg(PartialConversionBlock):
 class To_rpm(PartialConversionBlock):
     """Radians per second to revolutions per minute."""
 
+    ICON = icons.block("→ rpm")
+
     u = ac.Input(doc="angular velocity in rad/s")
     y = ac.Output(unit="rev/min", doc="angular velocity")
     factor = 30 / np.pi
@@ -104,6 +123,8 @@ class To_rpm(PartialConversionBlock):
 
 class From_rpm(PartialConversionBlock):
     """Revolutions per minute to radians per second."""
+
+    ICON = icons.block("rpm →")
 
     u = ac.Input(doc="angular velocity in rev/min")
     y = ac.Output(unit="rad/s", doc="angular velocity")
@@ -113,6 +134,8 @@ class From_rpm(PartialConversionBlock):
 class To_kmh(PartialConversionBlock):
     """Metres per second to kilometres per hour."""
 
+    ICON = icons.block("→ km/h")
+
     u = ac.Input(doc="speed in m/s")
     y = ac.Output(unit="km/h", doc="speed")
     factor = 3.6
@@ -120,6 +143,8 @@ class To_kmh(PartialConversionBlock):
 
 class From_kmh(PartialConversionBlock):
     """Kilometres per hour to metres per second."""
+
+    ICON = icons.block("km/h →")
 
     u = ac.Input(doc="speed in km/h")
     y = ac.Output(unit="m/s", doc="speed")
@@ -129,6 +154,8 @@ class From_kmh(PartialConversionBlock):
 class To_day(PartialConversionBlock):
     """Seconds to days."""
 
+    ICON = icons.block("→ d")
+
     u = ac.Input(doc="time in s")
     y = ac.Output(unit="d", doc="time")
     factor = 1 / 86400
@@ -136,6 +163,8 @@ class To_day(PartialConversionBlock):
 
 class From_day(PartialConversionBlock):
     """Days to seconds."""
+
+    ICON = icons.block("d →")
 
     u = ac.Input(doc="time in d")
     y = ac.Output(unit="s", doc="time")
@@ -145,6 +174,8 @@ class From_day(PartialConversionBlock):
 class To_hour(PartialConversionBlock):
     """Seconds to hours."""
 
+    ICON = icons.block("→ h")
+
     u = ac.Input(doc="time in s")
     y = ac.Output(unit="h", doc="time")
     factor = 1 / 3600
@@ -152,6 +183,8 @@ class To_hour(PartialConversionBlock):
 
 class From_hour(PartialConversionBlock):
     """Hours to seconds."""
+
+    ICON = icons.block("h →")
 
     u = ac.Input(doc="time in h")
     y = ac.Output(unit="s", doc="time")
@@ -161,6 +194,8 @@ class From_hour(PartialConversionBlock):
 class To_minute(PartialConversionBlock):
     """Seconds to minutes."""
 
+    ICON = icons.block("→ min")
+
     u = ac.Input(doc="time in s")
     y = ac.Output(unit="min", doc="time")
     factor = 1 / 60
@@ -168,6 +203,8 @@ class To_minute(PartialConversionBlock):
 
 class From_minute(PartialConversionBlock):
     """Minutes to seconds."""
+
+    ICON = icons.block("min →")
 
     u = ac.Input(doc="time in min")
     y = ac.Output(unit="s", doc="time")
@@ -177,6 +214,8 @@ class From_minute(PartialConversionBlock):
 class To_litre(PartialConversionBlock):
     """Cubic metres to litres."""
 
+    ICON = icons.block("→ l")
+
     u = ac.Input(doc="volume in m3")
     y = ac.Output(unit="l", doc="volume")
     factor = 1000.0
@@ -184,6 +223,8 @@ class To_litre(PartialConversionBlock):
 
 class From_litre(PartialConversionBlock):
     """Litres to cubic metres."""
+
+    ICON = icons.block("l →")
 
     u = ac.Input(doc="volume in l")
     y = ac.Output(unit="m3", doc="volume")
@@ -193,6 +234,8 @@ class From_litre(PartialConversionBlock):
 class To_kWh(PartialConversionBlock):
     """Joules to kilowatt hours."""
 
+    ICON = icons.block("→ kWh")
+
     u = ac.Input(doc="energy in J")
     y = ac.Output(unit="kW.h", doc="energy")
     factor = 1 / 3.6e6
@@ -200,6 +243,8 @@ class To_kWh(PartialConversionBlock):
 
 class From_kWh(PartialConversionBlock):
     """Kilowatt hours to joules."""
+
+    ICON = icons.block("kWh →")
 
     u = ac.Input(doc="energy in kW.h")
     y = ac.Output(unit="J", doc="energy")
@@ -209,6 +254,8 @@ class From_kWh(PartialConversionBlock):
 class To_bar(PartialConversionBlock):
     """Pascals to bars."""
 
+    ICON = icons.block("→ bar")
+
     u = ac.Input(doc="pressure in Pa")
     y = ac.Output(unit="bar", doc="pressure")
     factor = 1e-5
@@ -216,6 +263,8 @@ class To_bar(PartialConversionBlock):
 
 class From_bar(PartialConversionBlock):
     """Bars to pascals."""
+
+    ICON = icons.block("bar →")
 
     u = ac.Input(doc="pressure in bar")
     y = ac.Output(unit="Pa", doc="pressure")
@@ -225,6 +274,8 @@ class From_bar(PartialConversionBlock):
 class To_gps(PartialConversionBlock):
     """Kilograms per second to grams per second."""
 
+    ICON = icons.block("→ g/s")
+
     u = ac.Input(doc="mass flow rate in kg/s")
     y = ac.Output(unit="g/s", doc="mass flow rate")
     factor = 1000.0
@@ -232,6 +283,8 @@ class To_gps(PartialConversionBlock):
 
 class From_gps(PartialConversionBlock):
     """Grams per second to kilograms per second."""
+
+    ICON = icons.block("g/s →")
 
     u = ac.Input(doc="mass flow rate in g/s")
     y = ac.Output(unit="kg/s", doc="mass flow rate")

@@ -39,6 +39,8 @@ class Sine(_Wave):
 class Cosine(_Wave):
     """``y = offset + amplitude cos(2 pi f (time - startTime) + phase)`` from ``startTime`` on."""
 
+    ICON = icons.COSINE
+
     def equations(self) -> Iterator[ac.Eq]:
         yield self._wave(ac.cos)
 
@@ -73,12 +75,16 @@ class _VariableWave(SO):
 class SineVariableFrequencyAndAmplitude(_VariableWave):
     """``y = offset + amplitude sin(phi)``, ``der(phi) = 2 pi f``, with inputs ``amplitude``, ``f``."""
 
+    ICON = icons.marked(icons.SINE, "f")
+
     def _wave(self) -> Any:
         return ac.sin(self.phi)
 
 
 class CosineVariableFrequencyAndAmplitude(_VariableWave):
     """``y = offset + amplitude cos(phi)``, ``der(phi) = 2 pi f``, with inputs ``amplitude``, ``f``."""
+
+    ICON = icons.marked(icons.COSINE, "f")
 
     def _wave(self) -> Any:
         return ac.cos(self.phi)
@@ -87,7 +93,7 @@ class CosineVariableFrequencyAndAmplitude(_VariableWave):
 class Sinc(SignalSource):
     """``y = offset + amplitude sin(x)/x`` with ``x = 2 pi f (time - startTime)``."""
 
-    ICON = icons.SINE
+    ICON = icons.SINC
 
     amplitude = ac.Parameter(1.0, doc="amplitude")
     f = ac.Parameter(unit="Hz", doc="frequency")
@@ -102,7 +108,7 @@ class Sinc(SignalSource):
 class ExpSine(SignalSource):
     """``y = offset + amplitude exp(-damping t) sin(2 pi f t + phase)``, ``t = time - startTime``."""
 
-    ICON = icons.SINE
+    ICON = icons.DAMPED
 
     amplitude = ac.Parameter(1.0, doc="amplitude")
     f = ac.Parameter(unit="Hz", doc="frequency")
@@ -124,7 +130,7 @@ class Exponentials(SignalSource):
     reached decays with ``fallTimeConst`` (default: ``riseTimeConst``).
     """
 
-    ICON = icons.LAG
+    ICON = icons.DECAY
 
     outMax = ac.Parameter(1.0, doc="height for an infinite rise time")
     riseTime = ac.Parameter(unit="s", min=0, doc="rise time")

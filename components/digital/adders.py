@@ -4,6 +4,7 @@ from itertools import pairwise
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .delayed_gates import AndGate, XorGate
 from .gates import Or
@@ -14,6 +15,8 @@ __modelica__ = "Modelica.Electrical.Digital.Examples.Utilities"
 
 class HalfAdder(ac.Component):
     """Two bits: ``s`` is their sum without carry, ``c`` the carry; both ``delayTime`` [s] late."""
+
+    ICON = icons.block("½ +")
 
     delayTime = ac.Parameter(0.0, unit="s", min=0, doc="delay of the gates")
     a = DigitalInput(doc="first bit")
@@ -33,6 +36,8 @@ class HalfAdder(ac.Component):
 
 class FullAdder(ac.Component):
     """Two bits and a carry: ``s`` is their sum without the new carry ``c_out``; half adders of 1 ms."""
+
+    ICON = icons.block("1 +")
 
     a = DigitalInput(doc="first bit")
     b = DigitalInput(doc="second bit")
@@ -56,6 +61,8 @@ class FullAdder(ac.Component):
 
 class Adder(ac.Component):
     """Two numbers of ``n`` bits, the least first, and a carry: ``n`` full adders ``FullAdder[i]`` in a chain."""
+
+    ICON = icons.block("+")
 
     n = ac.Option(2, doc="number of bits")
     a = DigitalInput(shape="n", doc="first number")

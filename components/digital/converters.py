@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .logic import (
     LOGIC,
@@ -25,6 +26,8 @@ __modelica__ = "Modelica.Electrical.Digital.Converters"
 class LogicToBoolean(ac.Component):
     """1 where ``x`` is ``'1'`` or ``'H'``, else 0, element by element."""
 
+    ICON = icons.block("L → B")
+
     n = ac.Option(1, doc="number of signals")
     x = DigitalInput(shape="n", doc="digital signals")
     y = ac.Output(shape="n", doc="truth values, 1 or 0")
@@ -37,6 +40,8 @@ class LogicToBoolean(ac.Component):
 class BooleanToLogic(ac.Component):
     """``'1'`` where ``x > 0.5``, else ``'0'``, element by element."""
 
+    ICON = icons.block("B → L")
+
     n = ac.Option(1, doc="number of signals")
     x = ac.Input(shape="n", doc="truth values")
     y = DigitalOutput(shape="n", doc="digital signals")
@@ -48,6 +53,8 @@ class BooleanToLogic(ac.Component):
 
 class LogicToReal(ac.Component):
     """``value_U``, ``value_X``, ``value_0`` ... for the values of ``x``, element by element."""
+
+    ICON = icons.block("L → R")
 
     n = ac.Option(1, doc="number of signals")
     x = DigitalInput(shape="n", doc="digital signals")
@@ -91,12 +98,16 @@ class _Stripped(ac.Component):
 class LogicToX01(_Stripped):
     """``'0'``, ``'1'``, or ``'X'`` for what is neither, element by element."""
 
+    ICON = icons.block("X01")
+
     def _rest(self, x: Any) -> Any:
         return X
 
 
 class LogicToX01Z(_Stripped):
     """``'0'``, ``'1'``, ``'Z'``, or ``'X'`` for the rest, element by element."""
+
+    ICON = icons.block("X01Z")
 
     def _rest(self, x: Any) -> Any:
         high_impedance = signal("'Z'")
@@ -106,12 +117,16 @@ class LogicToX01Z(_Stripped):
 class LogicToUX01(_Stripped):
     """``'U'``, ``'0'``, ``'1'``, or ``'X'`` for the rest, element by element."""
 
+    ICON = icons.block("UX01")
+
     def _rest(self, x: Any) -> Any:
         return ac.where(is_uninitialized(x), U, X)
 
 
 class RealToLogic(ac.Component):
     """``upper_value`` above ``upper_limit``, ``lower_value`` below ``lower_limit``, else ``middle_value``."""
+
+    ICON = icons.block("R → L")
 
     n = ac.Option(1, doc="number of signals")
     x = ac.Input(shape="n", doc="numbers")

@@ -33,7 +33,7 @@ class _One(_Delayed):
 class InvGate(_One):
     """`Not` with a delay."""
 
-    ICON = icons.block("not")
+    ICON = icons.marked(icons.block("not"), "t")
 
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
@@ -71,34 +71,34 @@ class _Several(_Delayed):
 class AndGate(_Several):
     """`And` with a delay."""
 
-    ICON, GATE = icons.block("and"), gates.And
+    ICON, GATE = icons.marked(icons.block("and"), "t"), gates.And
 
 
 class NandGate(_Several):
     """`Nand` with a delay."""
 
-    ICON, GATE = icons.block("nand"), gates.Nand
+    ICON, GATE = icons.marked(icons.block("nand"), "t"), gates.Nand
 
 
 class OrGate(_Several):
     """`Or` with a delay."""
 
-    ICON, GATE = icons.block("or"), gates.Or
+    ICON, GATE = icons.marked(icons.block("or"), "t"), gates.Or
 
 
 class NorGate(_Several):
     """`Nor` with a delay."""
 
-    ICON, GATE = icons.block("nor"), gates.Nor
+    ICON, GATE = icons.marked(icons.block("nor"), "t"), gates.Nor
 
 
 class XorGate(_Several):
     """`Xor` with a delay."""
 
-    ICON, GATE = icons.block("xor"), gates.Xor
+    ICON, GATE = icons.marked(icons.block("xor"), "t"), gates.Xor
 
 
 class XnorGate(_Several):
     """`Xnor` with a delay."""
 
-    ICON, GATE = icons.block("xnor"), gates.Xnor
+    ICON, GATE = icons.marked(icons.block("xnor"), "t"), gates.Xnor

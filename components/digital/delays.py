@@ -47,7 +47,7 @@ class _Inertial(ac.Component):
 class InertialDelay(_Inertial):
     """``y`` is ``x`` once that has kept its value for ``delayTime`` [s]."""
 
-    ICON = icons.block("t")
+    ICON = icons.block("t ≥")
 
     delayTime = ac.Parameter(0.0, unit="s", min=0, doc="delay")
 
@@ -62,7 +62,7 @@ class InertialDelaySensitive(_Inertial):
     for those that fall. All others pass at once; weak values count as strong ones.
     """
 
-    ICON = icons.block("t")
+    ICON = icons.block("t ≥ ↑↓")
 
     tLH = ac.Parameter(0.0, unit="s", min=0, doc="delay of rising changes")
     tHL = ac.Parameter(0.0, unit="s", min=0, doc="delay of falling changes")

@@ -97,7 +97,7 @@ class Pulse(ac.Component):
 class Clock(ac.Component):
     """1 during the first ``width`` percent of each period from ``startTime`` [s] on, else 0."""
 
-    ICON = icons.PULSE
+    ICON = icons.SPIKES
 
     startTime = ac.Parameter(0.0, unit="s", doc="time of the first pulse")
     period = ac.Parameter(1.0, unit="s", min=0, doc="duration of a period")

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import NegativePin, PositivePin
 
@@ -32,6 +33,8 @@ class GeneralCurrentToVoltageAdaptor(_Adaptor):
     derivative of ``f`` where the model needs it; without, ``f`` is differentiated. It holds no ground.
     """
 
+    ICON = icons.block("i → v")
+
     f = ac.Input(unit="A", doc="current")
     fder = ac.Input(unit="A/s", when="use_fder", doc="derivative of the current")
     p = ac.Output(unit="V", doc="voltage")
@@ -51,6 +54,8 @@ class GeneralVoltageToCurrentAdaptor(_Adaptor):
     With ``use_fder`` the output ``fder = der(f)``. With ``use_pder`` the input ``pder`` is taken for the
     derivative of ``p`` where the model needs it; without, ``p`` is differentiated. It holds no ground.
     """
+
+    ICON = icons.block("v → i")
 
     p = ac.Input(unit="V", doc="voltage")
     pder = ac.Input(unit="V/s", when="use_pder", doc="derivative of the voltage")

@@ -52,7 +52,7 @@ class OpAmpDetailed(ac.Component):
     Conelly, Choi: Macromodelling with SPICE, 1992. It starts with ``v_source = q_fp1``.
     """
 
-    ICON = icons.OP_AMP
+    ICON = icons.marked(icons.OP_AMP, "…")
 
     Rdm = ac.Parameter(2e6, unit="Ohm", doc="input resistance, differential mode")
     Rcm = ac.Parameter(2e9, unit="Ohm", doc="input resistance, common mode")

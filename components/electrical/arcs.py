@@ -24,7 +24,7 @@ class IdealSwitchWithArc(OnePort, ConditionalHeatPort):
     from then on ``i = Goff v``. A subclass says when it is open. ``LossPower = v i``.
     """
 
-    ICON = icons.SWITCH
+    ICON = icons.arced(icons.CLOSING)
 
     __modelica__ = "Modelica.Electrical.Analog.Interfaces"
 
@@ -68,6 +68,8 @@ class IdealSwitchWithArc(OnePort, ConditionalHeatPort):
 class OpenerWithArc(IdealSwitchWithArc):
     """A contact with an arc that the signal ``control`` opens: open where ``control > 0.5``."""
 
+    ICON = icons.arced(icons.OPENING)
+
     control = ac.Input(kind="bool", doc="open above 0.5 (Modelica: true)")
 
     @property
@@ -77,6 +79,8 @@ class OpenerWithArc(IdealSwitchWithArc):
 
 class CloserWithArc(IdealSwitchWithArc):
     """A contact with an arc that the signal ``control`` closes: closed where ``control > 0.5``."""
+
+    ICON = icons.arced(icons.CLOSING)
 
     control = ac.Input(kind="bool", doc="closed above 0.5 (Modelica: true)")
 
@@ -88,6 +92,8 @@ class CloserWithArc(IdealSwitchWithArc):
 class ControlledOpenerWithArc(_PinControlled, IdealSwitchWithArc):
     """A contact with an arc that is open where ``control.v > level``."""
 
+    ICON = icons.ruled(icons.arced(icons.OPENING))
+
     @property
     def _open(self) -> Any:
         return self.control.v > self.level
@@ -95,6 +101,8 @@ class ControlledOpenerWithArc(_PinControlled, IdealSwitchWithArc):
 
 class ControlledCloserWithArc(_PinControlled, IdealSwitchWithArc):
     """A contact with an arc that is closed where ``control.v >= level``."""
+
+    ICON = icons.ruled(icons.arced(icons.CLOSING))
 
     @property
     def _open(self) -> Any:

@@ -48,7 +48,7 @@ class Conductor(OnePort, ConditionalHeatPort):
     ``G_actual = G/(1 + alpha (T_heatPort - T_ref))`` [S]; ``G`` may be zero or negative.
     """
 
-    ICON = icons.RESISTOR
+    ICON = icons.marked(icons.RESISTOR, "G")
 
     G = ac.Parameter(unit="S", doc="conductance at T_ref")
     T_ref = ac.Parameter(300.15, unit="K", doc="reference temperature")
@@ -90,6 +90,8 @@ class Inductor(OnePort):
 class Gyrator(TwoPort):
     """Gyrator: ``i1 = G2 v2``, ``i2 = -G1 v1``."""
 
+    ICON = icons.block("gyr")
+
     G1 = ac.Parameter(unit="S", doc="primary gyration conductance")
     G2 = ac.Parameter(unit="S", doc="secondary gyration conductance")
 
@@ -102,6 +104,8 @@ class Gyrator(TwoPort):
 class VCV(TwoPort):
     """Voltage-controlled voltage source: ``v2 = gain v1``, ``i1 = 0``."""
 
+    ICON = icons.controlled("voltage", "voltage")
+
     gain = ac.Parameter(doc="voltage gain")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -112,6 +116,8 @@ class VCV(TwoPort):
 
 class VCC(TwoPort):
     """Voltage-controlled current source: ``i2 = transConductance v1``, ``i1 = 0``."""
+
+    ICON = icons.controlled("voltage", "current")
 
     transConductance = ac.Parameter(unit="S", doc="transconductance")
 
@@ -124,6 +130,8 @@ class VCC(TwoPort):
 class CCV(TwoPort):
     """Current-controlled voltage source: ``v2 = transResistance i1``, ``v1 = 0``."""
 
+    ICON = icons.controlled("current", "voltage")
+
     transResistance = ac.Parameter(unit="Ohm", doc="transresistance")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -134,6 +142,8 @@ class CCV(TwoPort):
 
 class CCC(TwoPort):
     """Current-controlled current source: ``i2 = gain i1``, ``v1 = 0``."""
+
+    ICON = icons.controlled("current", "current")
 
     gain = ac.Parameter(doc="current gain")
 

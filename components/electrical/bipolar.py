@@ -174,6 +174,8 @@ class NPN(_Bipolar):
     the betas go with ``(T_heatPort/Tnom)**XTB``.
     """
 
+    ICON = icons.NPN
+
     vbc = ac.Variable(unit="V", doc="voltage from base to collector")
     vbe = ac.Variable(unit="V", doc="voltage from base to emitter")
     ibc = ac.Variable(unit="A", doc="diode current from base to collector")
@@ -195,6 +197,8 @@ class PNP(_Bipolar):
 
     ``vcb``, ``icb``, ``ccb`` and ``veb``, ``ieb``, ``ceb`` count from collector and emitter to the base.
     """
+
+    ICON = icons.PNP
 
     polarity = -1
 

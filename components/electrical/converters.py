@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.digital.logic import ONE, ZERO, DigitalInput, DigitalOutput, X, is_one
 
 from .interfaces import NegativePin, PositivePin
@@ -17,6 +18,8 @@ class AD_Converter(ac.Component):  # noqa: N801 (Modelica's name)
     The number is ``(u - VRefLow)/(VRefHigh - VRefLow) (2**N - 1)``, rounded, and not below 0; what does not
     fit into ``N`` bits is left over in ``z``. The input has the resistance ``Rin``.
     """
+
+    ICON = icons.block("A/D")
 
     N = ac.Option(8, doc="number of bits")
     VRefHigh = ac.Parameter(unit="V", doc="voltage of the greatest number")
@@ -55,6 +58,8 @@ class DA_Converter(ac.Component):  # noqa: N801
 
     ``x[1]`` is the least significant bit. The output is an ideal voltage source.
     """
+
+    ICON = icons.block("D/A")
 
     N = ac.Option(8, doc="number of bits")
     Vref = ac.Parameter(unit="V", doc="voltage of the greatest number")

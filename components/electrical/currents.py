@@ -61,7 +61,7 @@ class SineCurrent(waveforms.Sine, waveforms.Current):
 class CosineCurrent(waveforms.Cosine, waveforms.Current):
     """``i = offset + I cos(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
-    ICON = icons.current("sine")
+    ICON = icons.current("cosine")
 
 
 class SineCurrentVariableFrequencyAndAmplitude(waveforms.VariableCurrent):
@@ -69,6 +69,8 @@ class SineCurrentVariableFrequencyAndAmplitude(waveforms.VariableCurrent):
 
     ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
     """
+
+    ICON = icons.marked(icons.current("sine"), "f, I")
 
     def _wave(self) -> Any:
         return ac.sin(self.phi)
@@ -79,6 +81,8 @@ class CosineCurrentVariableFrequencyAndAmplitude(waveforms.VariableCurrent):
 
     ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
     """
+
+    ICON = icons.marked(icons.current("cosine"), "f, I")
 
     def _wave(self) -> Any:
         return ac.cos(self.phi)

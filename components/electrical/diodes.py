@@ -70,7 +70,7 @@ class Diode2(OnePort, ConditionalHeatPort):
     exponent 100, where Modelica's overflows.
     """
 
-    ICON = icons.DIODE
+    ICON = icons.marked(icons.DIODE, "2")
 
     Vf = ac.Parameter(0.7, unit="V", min=0, doc="forward voltage")
     Ids = ac.Parameter(1e-13, unit="A", doc="reverse saturation current")

@@ -48,7 +48,7 @@ class TranslationalEMF(OnePort):
     the flange ``support``, else against the ground.
     """
 
-    ICON = icons.EMF
+    ICON = icons.LINEAR_EMF
 
     useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
     k = ac.Parameter(unit="N/A", doc="force per current, = voltage per speed")

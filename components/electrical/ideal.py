@@ -15,6 +15,8 @@ __modelica__ = "Modelica.Electrical.Analog.Ideal"
 class IdealDiode(IdealSemiconductor):
     """Ideal diode: it blocks where ``s < 0``, that is below ``Vknee``. See `IdealSemiconductor`."""
 
+    ICON = icons.IDEAL_DIODE
+
     @property
     def _blocks(self) -> Any:
         return self.s < 0
@@ -23,7 +25,7 @@ class IdealDiode(IdealSemiconductor):
 class IdealThyristor(IdealSemiconductor):
     """Ideal thyristor: fired by the signal ``fire > 0.5`` above ``Vknee``, it conducts until ``s < 0``."""
 
-    ICON = icons.THYRISTOR
+    ICON = icons.IDEAL_THYRISTOR
 
     fire = ac.Input(kind="bool", doc="fires above 0.5 (Modelica: true)")
 
@@ -35,7 +37,7 @@ class IdealThyristor(IdealSemiconductor):
 class IdealGTOThyristor(IdealSemiconductor):
     """Ideal switching transistor: it conducts above ``Vknee`` while the signal ``fire > 0.5``."""
 
-    ICON = icons.THYRISTOR
+    ICON = icons.GTO
 
     fire = ac.Input(kind="bool", doc="may conduct above 0.5 (Modelica: true)")
 
@@ -50,7 +52,7 @@ class IdealTransformer(TwoPort):
     Without ``considerMagnetization`` ``im1 = 0``; with it ``v1 = der(psim1)``, ``psim1 = Lm1 im1``.
     """
 
-    ICON = icons.TRANSFORMER
+    ICON = icons.marked(icons.TRANSFORMER, "n")
 
     n = ac.Parameter(doc="turns ratio, primary to secondary voltage")
     considerMagnetization = ac.Option(False, doc="whether there is a magnetizing current")

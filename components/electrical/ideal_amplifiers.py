@@ -1,6 +1,7 @@
 """Ideal and idealized operational amplifiers."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import acausal as ac
@@ -17,7 +18,7 @@ _LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
 class IdealOpAmp(TwoPort):
     """Nullator and norator: ``v1 = 0`` and ``i1 = 0``; ``v2`` and ``i2`` are what the circuit asks for."""
 
-    ICON = icons.OP_AMP
+    ICON = icons.OP_AMP_OF_PAIRS
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
@@ -41,6 +42,8 @@ class _ThreePins(ac.Component):
 
 class IdealOpAmp3Pin(_ThreePins):
     """Nullator and norator with three pins: ``in_p.v = in_n.v``, no current in; the output is free."""
+
+    ICON = replace(icons.OP_AMP, text="∞")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
@@ -98,6 +101,8 @@ class IdealOpAmpLimited(_Limited):
     zero ``out.v = VMax.v``. Steps end where it comes to a limit or leaves it.
     """
 
+    ICON = icons.marked(icons.OP_AMP, "lim")
+
     VMax = PositivePin()
     VMin = NegativePin()
     vin = ac.Variable(unit="V", doc="input voltage")
@@ -129,6 +134,8 @@ class IdealizedOpAmpLimited(_Limited):
     ``homotopyType`` says where it begins: at the limit of ``"UpperLimit"`` or ``"LowerLimit"`` if that is a solution.
     ``strict`` has no effect.
     """
+
+    ICON = replace(icons.OP_AMP, text="lim")
 
     V0 = ac.Parameter(15000.0, doc="no-load gain")
     useSupply = ac.Option(False, doc="whether there are supply pins")

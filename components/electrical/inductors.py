@@ -88,6 +88,8 @@ class M_Transformer(ac.Component):  # noqa: N801 (Modelica's name)
     ``L`` [H] holds the upper triangle of the symmetric matrix ``Lm`` row by row, ``N (N + 1)/2`` values.
     """
 
+    ICON = icons.marked(icons.INDUCTOR, "n")
+
     N = ac.Option(3, doc="number of inductors")
     L = ac.Parameter(
         [1, 0.1, 0.2, 2, 0.3, 3], unit="H", shape=":", doc="inductances and coupling inductances"

@@ -117,7 +117,7 @@ class IdealSemiconductor(OnePort, ConditionalHeatPort):
     1 while blocking, else 0.
     """
 
-    ICON = icons.DIODE
+    ICON = icons.IDEAL_DIODE
 
     Ron = ac.Parameter(1e-5, unit="Ohm", min=0, doc="resistance while conducting")
     Goff = ac.Parameter(1e-5, unit="S", min=0, doc="conductance while blocking")
@@ -145,7 +145,7 @@ class IdealSwitch(OnePort, ConditionalHeatPort):
     that changes. ``off`` is 1 while open, else 0.
     """
 
-    ICON = icons.SWITCH
+    ICON = icons.CLOSING
 
     Ron = ac.Parameter(1e-5, unit="Ohm", min=0, doc="resistance while closed")
     Goff = ac.Parameter(1e-5, unit="S", min=0, doc="conductance while open")

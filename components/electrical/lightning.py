@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import root
 
 import acausal as ac
-from acausal.components import blocks
+from acausal.components import blocks, icons
 
 from . import waveforms
 
@@ -24,6 +24,8 @@ class LightningImpulse(blocks.SignalSource):
     amplitude after ``T1`` [s]; ``T2`` [s] after that zero the output has fallen to a half. ``tau1``, ``tau2`` and
     ``eta`` follow from these, and are fixed when the source is made. Two exponentials need ``T1 < 0.2 T2``.
     """
+
+    ICON = icons.LIGHTNING
 
     approximation = ac.Option("Heidler", choices=_SHAPES, doc="approximation of the impulse")
     amplitude = ac.Parameter(doc="height of the impulse")
@@ -106,6 +108,10 @@ class _Lightning(waveforms.Waveform):
 class LightningImpulseVoltage(_Lightning, waveforms.Voltage):
     """``v`` is an impulse of the height ``V``, see `LightningImpulse`."""
 
+    ICON = icons.voltage("lightning")
+
 
 class LightningImpulseCurrent(_Lightning, waveforms.Current):
     """``i`` is an impulse of the height ``I``, see `LightningImpulse`."""
+
+    ICON = icons.current("lightning")

@@ -5,6 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.thermal.interfaces import HeatPort_a
 
 from .basic import Capacitor, Conductor, Ground, Inductor, Resistor
@@ -64,6 +65,8 @@ class OLine(_Line):
     ``R`` and ``G`` depend on the temperature by ``alpha_R`` and ``alpha_G``.
     """
 
+    ICON = icons.LINE
+
     r = ac.Parameter(unit="Ohm/m", min=0, doc="resistance per length")
     l = ac.Parameter(unit="H/m", min=0, doc="inductance per length")
     g = ac.Parameter(unit="S/m", min=0, doc="conductance per length")
@@ -112,6 +115,8 @@ class ULine(_Line):
     From ``r`` [Ohm/m] and ``c`` [F/m] times ``length/N``; the first and the last ``R`` are halves. ``R``
     depends on the temperature by ``alpha``.
     """
+
+    ICON = icons.marked(icons.LINE, "RC")
 
     r = ac.Parameter(unit="Ohm/m", min=0, doc="resistance per length")
     c = ac.Parameter(unit="F/m", min=0, doc="capacitance per length")
@@ -204,6 +209,8 @@ class M_OLine(ac.Component):  # noqa: N801 (Modelica's name)
     other half. ``l``, ``g`` and ``c`` hold the upper triangles of symmetric matrices row by row; what
     they have on the diagonal lies between a line and the reference.
     """
+
+    ICON = icons.marked(icons.LINE, "n")
 
     length = ac.Parameter(0.1, unit="m", min=0, doc="length of the line")
     N = ac.Option(5, doc="number of segments")

@@ -23,7 +23,7 @@ class _MOS(_TemperatureDependent):
     Gate and bulk carry no current; ``LossPower = D.i (D.v - S.v)``.
     """
 
-    ICON = icons.TRANSISTOR
+    ICON = icons.NMOS
 
     polarity: ClassVar[int] = 1
 
@@ -82,6 +82,8 @@ class NMOS(_MOS):
     ``LossPower = D.i (D.v - S.v)``.
     """
 
+    ICON = icons.NMOS
+
     Beta = ac.Parameter(0.041e-3, unit="A/V2", doc="transconductance parameter")
     Vt = ac.Parameter(0.8, unit="V", doc="zero bias threshold voltage")
     K2 = ac.Parameter(1.144, doc="bulk threshold parameter")
@@ -93,6 +95,8 @@ class NMOS(_MOS):
 
 class PMOS(_MOS):
     """P-channel MOS transistor: `NMOS` with all voltages, currents and ``Vt`` negated."""
+
+    ICON = icons.PMOS
 
     polarity = -1
 

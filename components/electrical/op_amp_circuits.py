@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .basic import Capacitor, Resistor
 from .ideal_amplifiers import IdealizedOpAmpLimited
@@ -41,6 +42,8 @@ class _Inverting(PartialOpAmp):
 class Buffer(PartialOpAmp):
     """Amplifier that does not invert: ``v2 = k v1``."""
 
+    ICON = icons.amplifier("1")
+
     k = ac.Parameter(1.0, min=0, doc="gain")
     R1 = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the negative pins")
     R2 = ac.Parameter(lambda self: (self.k - 1) * self.R1, unit="Ohm", doc="resistance, computed")
@@ -56,6 +59,8 @@ class Buffer(PartialOpAmp):
 
 class Gain(_Inverting):
     """Inverting amplifier: ``v2 = -k v1``."""
+
+    ICON = icons.amplifier("−k")
 
     k = ac.Parameter(1.0, min=0, doc="gain")
     R1 = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the input")
@@ -85,6 +90,8 @@ class _TwoInputs(PartialOpAmp):
 class Add(_TwoInputs, _Inverting):
     """Inverting sum: ``v2 = -(k1 v1 + k2 v1_2)``."""
 
+    ICON = icons.amplifier("Σ")
+
     k1 = ac.Parameter(1.0, min=0, doc="weight of the first input")
     k2 = ac.Parameter(1.0, min=0, doc="weight of the second input")
     R = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the output")
@@ -102,6 +109,8 @@ class Add(_TwoInputs, _Inverting):
 
 class Feedback(_TwoInputs):
     """Difference: ``v2 = -(v1 - v1_2)/k``; as in Modelica ``R3 = R1/k``, although it calls ``k`` the gain."""
+
+    ICON = icons.amplifier("−")
 
     k = ac.Parameter(1.0, min=0, doc="inverse of the gain")
     R1 = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the inputs")
@@ -121,6 +130,8 @@ class Feedback(_TwoInputs):
 
 class Der(_Inverting):
     """Differentiator: ``v2 = -k/(2 pi f) der(v1)``; ``v`` [V] is the capacitor's voltage."""
+
+    ICON = icons.amplifier("s")
 
     k = ac.Parameter(1.0, min=0, doc="gain at the frequency f")
     f = ac.Parameter(unit="Hz", doc="frequency")
@@ -144,6 +155,8 @@ class Der(_Inverting):
 
 class Integrator(_Inverting):
     """Integrator: ``der(v2) = -2 pi f k v1``; ``v`` [V] is the capacitor's voltage."""
+
+    ICON = icons.amplifier("∫")
 
     k = ac.Parameter(1.0, min=0, doc="gain at the frequency f")
     f = ac.Parameter(unit="Hz", doc="frequency")
@@ -170,6 +183,8 @@ class Integrator(_Inverting):
 class FirstOrder(_Inverting):
     """Low pass: ``v2 + T der(v2) = -k v1``; ``v`` [V] is the capacitor's voltage."""
 
+    ICON = icons.amplifier("T1")
+
     k = ac.Parameter(1.0, min=0, doc="gain")
     R1 = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the input")
     R2 = ac.Parameter(lambda self: self.k * self.R1, unit="Ohm", doc="resistance, computed")
@@ -192,6 +207,8 @@ class FirstOrder(_Inverting):
 
 class Derivative(_Inverting):
     """High pass: ``v2 + T der(v2) = -k T der(v1)``; ``v`` [V] is the capacitor's voltage."""
+
+    ICON = icons.amplifier("DT")
 
     k = ac.Parameter(1.0, min=0, doc="gain")
     R1 = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the input")
@@ -217,6 +234,8 @@ class Derivative(_Inverting):
 class PI(_Inverting):
     """Inverting PI controller: ``v2 = -k (v1 + 1/T integral of v1)``."""
 
+    ICON = icons.amplifier("PI")
+
     k = ac.Parameter(1.0, min=0, doc="gain")
     R1 = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the input")
     R2 = ac.Parameter(lambda self: self.k * self.R1, unit="Ohm", doc="resistance, computed")
@@ -235,6 +254,8 @@ class PI(_Inverting):
 
 class DifferentialAmplifierData(ac.Component):
     """A record: what source, differential amplifier and instrument of Modelica's example have as parameters."""
+
+    ICON = icons.block("data")
 
     VSource = ac.Parameter(400.0, unit="V", doc="effective voltage of the source, line to line")
     fSource = ac.Parameter(50.0, unit="Hz", doc="frequency of the source")

@@ -79,7 +79,7 @@ class PowerSensor(ac.Component):
 class MultiSensor(PowerSensor):
     """Voltage ``v`` [V] from ``pv`` to ``nv``, current ``i`` [A] from ``pc`` to ``nc`` and ``power = v i`` [W]."""
 
-    ICON = icons.meter2("VA")
+    ICON = icons.meters("VA")
 
     i = ac.Output(unit="A", doc="current")
     v = ac.Output(unit="V", doc="voltage")

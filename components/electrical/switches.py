@@ -15,6 +15,8 @@ __modelica__ = "Modelica.Electrical.Analog.Ideal"
 class IdealOpeningSwitch(IdealSwitch):
     """A contact that the signal ``control`` opens: open where ``control > 0.5``."""
 
+    ICON = icons.OPENING
+
     control = ac.Input(kind="bool", doc="open above 0.5 (Modelica: true)")
 
     @property
@@ -46,6 +48,8 @@ class _PinControlled(ac.Component):
 class ControlledIdealOpeningSwitch(_PinControlled, IdealSwitch):
     """A contact that is open where ``control.v > level``."""
 
+    ICON = icons.ruled(icons.OPENING)
+
     @property
     def _open(self) -> Any:
         return self.control.v > self.level
@@ -53,6 +57,8 @@ class ControlledIdealOpeningSwitch(_PinControlled, IdealSwitch):
 
 class ControlledIdealClosingSwitch(_PinControlled, IdealSwitch):
     """A contact that is closed where ``control.v > level``."""
+
+    ICON = icons.ruled(icons.CLOSING)
 
     @property
     def _open(self) -> Any:
@@ -62,7 +68,7 @@ class ControlledIdealClosingSwitch(_PinControlled, IdealSwitch):
 class _Contacts(ConditionalHeatPort):
     """Several contacts with one ``Ron`` and ``Goff``, in one of two positions."""
 
-    ICON = icons.SWITCH
+    ICON = icons.TWO_WAY
 
     Ron = ac.Parameter(1e-5, unit="Ohm", min=0, doc="resistance while closed")
     Goff = ac.Parameter(1e-5, unit="S", min=0, doc="conductance while open")
@@ -153,9 +159,13 @@ class _ByPin(_PinControlled, _Contacts):
 class IdealTwoWaySwitch(_BySignal, _TwoWay):
     """``p`` is connected with ``n2`` where the signal ``control > 0.5``, else with ``n1``."""
 
+    ICON = icons.TWO_WAY
+
 
 class ControlledIdealTwoWaySwitch(_ByPin, _TwoWay):
     """``p`` is connected with ``n2`` where ``control.v > level``, else with ``n1``."""
+
+    ICON = icons.ruled(icons.TWO_WAY)
 
 
 class IdealIntermediateSwitch(_BySignal, _Intermediate):
@@ -164,9 +174,13 @@ class IdealIntermediateSwitch(_BySignal, _Intermediate):
     Else ``p1`` - ``n1`` and ``p2`` - ``n2``.
     """
 
+    ICON = icons.INTERMEDIATE
+
 
 class ControlledIdealIntermediateSwitch(_ByPin, _Intermediate):
     """Where ``control.v > level``, ``p1`` - ``n2`` and ``p2`` - ``n1`` are connected.
 
     Else ``p1`` - ``n1`` and ``p2`` - ``n2``.
     """
+
+    ICON = icons.ruled(icons.INTERMEDIATE)

@@ -99,7 +99,7 @@ class SimpleTriac(_Ratings):
     ``thyristor`` conducts from ``n`` to ``p``, ``thyristor1`` from ``p`` to ``n``; ``g`` is the gate.
     """
 
-    ICON = icons.THYRISTOR
+    ICON = icons.TRIAC
 
     n = NegativePin()
     p = PositivePin()

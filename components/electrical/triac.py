@@ -19,7 +19,7 @@ class IdealTriac(ac.Component):
     ``capacitor`` in series are between the same pins.
     """
 
-    ICON = icons.THYRISTOR
+    ICON = icons.IDEAL_TRIAC
 
     Ron = ac.Parameter(1e-5, unit="Ohm", min=0, doc="resistance while conducting")
     Goff = ac.Parameter(1e-5, unit="S", min=0, doc="conductance while blocking")

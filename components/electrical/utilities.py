@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from . import basic
 from .adaptors import GeneralCurrentToVoltageAdaptor, GeneralVoltageToCurrentAdaptor
@@ -22,6 +23,8 @@ __modelica__ = "Modelica.Electrical.Analog.Examples.Utilities"
 class NonlinearResistor(OnePort):
     """Chua's resistor: ``i = Ga v`` for ``|v| < Ve``, outside with the conductance ``Gb``."""
 
+    ICON = icons.KNEE
+
     Ga = ac.Parameter(unit="S", doc="conductance at small voltages")
     Gb = ac.Parameter(unit="S", doc="conductance at large voltages")
     Ve = ac.Parameter(unit="V", doc="voltage at which the conductance changes")
@@ -34,6 +37,8 @@ class NonlinearResistor(OnePort):
 
 class Transistor(ac.Component):
     """An `NPN` transistor ``Tr`` with resistances before base and collector and a capacitor at the base."""
+
+    ICON = icons.boxed(icons.NPN)
 
     c = Pin()
     b = Pin()
@@ -58,6 +63,8 @@ class Transistor(ac.Component):
 
 class Nand(ac.Component):
     """CMOS gate: ``y`` is low where ``x1`` and ``x2`` are high. Tietze, Schenk: Halbleiter-Schaltungstechnik."""
+
+    ICON = icons.block("&")
 
     x1 = Pin()
     x2 = Pin()
@@ -90,6 +97,8 @@ class Nand(ac.Component):
 class DirectCapacitor(ac.Component):
     """A capacitor driven by ``iDrive`` that gives its voltage and takes the current ``i``."""
 
+    ICON = icons.boxed(icons.CAPACITOR, "i → v")
+
     C = ac.Parameter(1.0, unit="F", min=0, doc="capacitance")
     iDrive = ac.Input(unit="A", doc="driving current")
     i = ac.Input(unit="A", doc="current from what is connected")
@@ -115,6 +124,8 @@ class DirectCapacitor(ac.Component):
 class InverseCapacitor(ac.Component):
     """A capacitor at the voltage that the signals say, and the current that this takes."""
 
+    ICON = icons.boxed(icons.CAPACITOR, "v → i")
+
     C = ac.Parameter(1.0, unit="F", min=0, doc="capacitance")
     v = ac.Input(unit="V", doc="voltage")
     dv = ac.Input(unit="V/s", doc="rate of the voltage, consistent with v")
@@ -134,6 +145,8 @@ class InverseCapacitor(ac.Component):
 
 class DirectInductor(ac.Component):
     """An inductor driven by ``vDrive`` that gives its current and takes the voltage ``v`` behind it."""
+
+    ICON = icons.boxed(icons.INDUCTOR, "v → i")
 
     L = ac.Parameter(1.0, unit="H", min=0, doc="inductance")
     vDrive = ac.Input(unit="V", doc="driving voltage")
@@ -159,6 +172,8 @@ class DirectInductor(ac.Component):
 class InverseInductor(ac.Component):
     """An inductor with the current that the signals say, and the voltage that this takes."""
 
+    ICON = icons.boxed(icons.INDUCTOR, "i → v")
+
     L = ac.Parameter(1.0, unit="H", min=0, doc="inductance")
     i = ac.Input(unit="A", doc="current")
     di = ac.Input(unit="A/s", doc="rate of the current, consistent with i")
@@ -178,6 +193,8 @@ class InverseInductor(ac.Component):
 
 class Resistor(ac.Component):
     """A resistor between two voltages, and the currents that these take."""
+
+    ICON = icons.boxed(icons.RESISTOR, "v → i")
 
     R = ac.Parameter(1.0, unit="Ohm", doc="resistance")
     v1 = ac.Input(unit="V", doc="voltage of the left end")
@@ -202,6 +219,8 @@ class Resistor(ac.Component):
 
 class Conductor(ac.Component):
     """A conductor to ground that two currents feed, and the voltage that these find."""
+
+    ICON = icons.boxed(icons.marked(icons.RESISTOR, "G"), "G")
 
     G = ac.Parameter(1.0, unit="S", doc="conductance")
     i1 = ac.Input(unit="A", doc="current from the left")

@@ -20,7 +20,7 @@ class VariableResistor(OnePort, ConditionalHeatPort):
     ``R_actual = R (1 + alpha (T_heatPort - T_ref))`` [Ohm].
     """
 
-    ICON = icons.VARIABLE_RESISTOR
+    ICON = icons.variable(icons.RESISTOR)
 
     T_ref = ac.Parameter(300.15, unit="K", doc="reference temperature")
     alpha = ac.Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
@@ -41,7 +41,7 @@ class VariableConductor(OnePort, ConditionalHeatPort):
     ``G_actual = G/(1 + alpha (T_heatPort - T_ref))`` [S].
     """
 
-    ICON = icons.VARIABLE_RESISTOR
+    ICON = icons.variable(icons.RESISTOR, "G")
 
     T_ref = ac.Parameter(300.15, unit="K", doc="reference temperature")
     alpha = ac.Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
@@ -62,7 +62,7 @@ class VariableCapacitor(OnePort):
     With ``UIC`` the voltage starts at ``IC`` [V].
     """
 
-    ICON = icons.CAPACITOR
+    ICON = icons.variable(icons.CAPACITOR)
 
     Cmin = ac.Parameter(_EPS, unit="F", min=0, doc="lower bound of the capacitance")
     IC = ac.Parameter(0.0, unit="V", doc="initial voltage, with UIC")
@@ -86,7 +86,7 @@ class VariableInductor(OnePort):
     With ``UIC`` the current starts at ``IC`` [A].
     """
 
-    ICON = icons.INDUCTOR
+    ICON = icons.variable(icons.INDUCTOR)
 
     Lmin = ac.Parameter(_EPS, unit="H", min=0, doc="lower bound of the inductance")
     IC = ac.Parameter(0.0, unit="A", doc="initial current, with UIC")
@@ -112,7 +112,7 @@ class Potentiometer(ConditionalHeatPort):
     parameter ``rConstant``, or with ``useRinput`` the input ``r``.
     """
 
-    ICON = icons.VARIABLE_RESISTOR
+    ICON = icons.POTENTIOMETER
 
     R = ac.Parameter(unit="Ohm", doc="whole resistance at T_ref")
     T_ref = ac.Parameter(293.15, unit="K", doc="reference temperature")

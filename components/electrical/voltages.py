@@ -61,7 +61,7 @@ class SineVoltage(waveforms.Sine, waveforms.Voltage):
 class CosineVoltage(waveforms.Cosine, waveforms.Voltage):
     """``v = offset + V cos(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
-    ICON = icons.voltage("sine")
+    ICON = icons.voltage("cosine")
 
 
 class SineVoltageVariableFrequencyAndAmplitude(waveforms.VariableVoltage):
@@ -69,6 +69,8 @@ class SineVoltageVariableFrequencyAndAmplitude(waveforms.VariableVoltage):
 
     ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
     """
+
+    ICON = icons.marked(icons.voltage("sine"), "f, V")
 
     def _wave(self) -> Any:
         return ac.sin(self.phi)
@@ -79,6 +81,8 @@ class CosineVoltageVariableFrequencyAndAmplitude(waveforms.VariableVoltage):
 
     ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
     """
+
+    ICON = icons.marked(icons.voltage("cosine"), "f, V")
 
     def _wave(self) -> Any:
         return ac.cos(self.phi)
@@ -133,7 +137,7 @@ class TableVoltage(waveforms.Table, VoltageSource):
 class SupplyVoltage(ac.Component):
     """Two constant voltages: ``Vps`` from ``ground`` to ``pin_p``, ``Vns`` from ``ground`` to ``pin_n``."""
 
-    ICON = icons.VOLTAGE
+    ICON = icons.SUPPLY
 
     Vps = ac.Parameter(15.0, unit="V", doc="positive supply")
     Vns = ac.Parameter(-15.0, unit="V", doc="negative supply")
@@ -157,7 +161,7 @@ class DCPowerSupply(OnePort):
     hardly any current back.
     """
 
-    ICON = icons.VOLTAGE
+    ICON = icons.marked(icons.VOLTAGE, "DC")
 
     V0 = ac.Parameter(60.0, unit="V", min=0, doc="voltage without load")
     I0 = ac.Parameter(50.0, unit="A", min=0, doc="current of a short circuit")

@@ -98,6 +98,8 @@ class OneWayValve(_Valve):
     sign tells the direction (Modelica scales it otherwise); ``backward`` is 1 where it is negative, else 0.
     """
 
+    ICON = icons.CHECK_VALVE
+
     V_flowNominal = ac.Parameter(unit="m3/s", min=0, doc="nominal volume flow, forward")
     dpForward = ac.Parameter(1e-6, unit="Pa", min=0, doc="pressure drop at nominal flow, forward")
     dpNominal = ac.Parameter(unit="Pa", min=0, doc="nominal pressure, backward")

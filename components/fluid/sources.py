@@ -45,7 +45,7 @@ class AbsolutePressure(PartialSinglePort):
     flow could pass, use `Ambient`.
     """
 
-    ICON = icons.AMBIENT
+    ICON = icons.marked(icons.AMBIENT, "=")
 
     Exchange = False
 
@@ -63,7 +63,7 @@ class VolumeFlow(PartialAdiabatic):
     It is ``constantVolumeFlow``, or the signal ``volumeFlow`` with ``useVolumeFlowInput``.
     """
 
-    ICON = icons.PUMP
+    ICON = icons.marked(icons.PUMP, "V")
 
     useVolumeFlowInput = ac.Option(False, doc="whether the volume flow is a signal")
     constantVolumeFlow = ac.Parameter(
@@ -84,7 +84,7 @@ class PressureIncrease(PartialAdiabatic):
     ``usePressureIncreaseInput``.
     """
 
-    ICON = icons.PUMP
+    ICON = icons.marked(icons.PUMP, "Δp")
 
     usePressureIncreaseInput = ac.Option(False, doc="whether the pressure increase is a signal")
     constantPressureIncrease = ac.Parameter(

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 __modelica__ = "Modelica.Thermal.FluidHeatFlow.Examples.Utilities"
 
@@ -14,6 +15,8 @@ class DoubleRamp(ac.Component):
     ``y = offset + height_1 r_1 + height_2 r_2``, where ``r_1`` rises from 0 to 1 in ``duration_1`` [s] from
     ``startTime`` [s] on, and ``r_2`` in ``duration_2``, beginning ``interval`` [s] after the end of the first.
     """
+
+    ICON = icons.DOUBLE_RAMP
 
     offset = ac.Parameter(1.0, doc="offset of the ramps")
     startTime = ac.Parameter(0.2, unit="s", doc="start of the first ramp")

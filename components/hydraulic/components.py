@@ -38,7 +38,7 @@ class OpenTank(ac.Component):
 class LinearResistance(PartialTwoPortTransport):
     """Laminar flow: ``m_flow = k dp``."""
 
-    ICON = icons.PIPE
+    ICON = icons.marked(icons.ORIFICE, "lin")
 
     k = ac.Parameter(unit="kg/(s.Pa)", min=0, doc="hydraulic conductance")
 
@@ -76,7 +76,7 @@ class Weir(PartialTwoPortTransport):
     not matter, and nothing comes back.
     """
 
-    ICON = icons.ORIFICE
+    ICON = icons.WEIR
 
     height = ac.Parameter(unit="m", doc="height of the rim above the tank's bottom")
     width = ac.Parameter(unit="m", min=0, doc="length of the rim that is flown over")

@@ -52,6 +52,8 @@ class _Storage(_Filled):
 class FixedVolume(_Storage):
     """Liquid in a stiff vessel of the volume ``V`` [m3]."""
 
+    ICON = icons.VESSEL
+
     V = ac.Parameter(unit="m3", min=0, doc="volume")
 
     @property
@@ -64,6 +66,8 @@ class DynamicVolume(_Storage):
 
     With ``direction=1`` the volume grows with ``flange.s``, with -1 it shrinks.
     """
+
+    ICON = icons.PISTON
 
     area = ac.Parameter(unit="m2", min=0, doc="area of the piston")
     V_dead = ac.Parameter(0.0, unit="m3", min=0, doc="volume where x = 0")
@@ -89,7 +93,7 @@ class TubeSegment(PartialTwoPortTransport, _Filled):
     ``dp = dp_friction + length/A der(m_flow)``; the friction is Darcy's and Weisbach's, see `hydraulic.flow`.
     """
 
-    ICON = icons.PIPE
+    ICON = icons.marked(icons.PIPE, "1")
 
     length = ac.Parameter(unit="m", min=0, doc="length")
     diameter = ac.Parameter(unit="m", min=0, doc="inner diameter")
@@ -116,7 +120,7 @@ class Tube(_Filled):
     those at both ends of the tube have half the volume of a piece. Waves are resolved by ``n`` pieces.
     """
 
-    ICON = icons.PIPE
+    ICON = icons.marked(icons.PIPE, "n")
 
     length = ac.Parameter(unit="m", min=0, doc="length")
     diameter = ac.Parameter(unit="m", min=0, doc="inner diameter")
@@ -174,6 +178,8 @@ class _Throttle(PartialTwoPortTransport, _Filled):
 class Valve(_Throttle):
     """An opening with the ``area`` [m2] as signal."""
 
+    ICON = icons.VALVE
+
     area = ac.Input(unit="m2", doc="area that is open; closed below zero")
 
     @property
@@ -183,6 +189,8 @@ class Valve(_Throttle):
 
 class SpoolValve(_Throttle):
     """An opening of the ``width`` [m] that a spool clears: ``area = width direction (flange.s - s_0)``."""
+
+    ICON = icons.SPOOL
 
     width = ac.Parameter(unit="m", min=0, doc="width of the opening, the spool's circumference")
     s_0 = ac.Parameter(0.0, unit="m", doc="position of the spool where it opens")
@@ -205,7 +213,7 @@ class SpoolValve2Way(_Filled):
     ``supply_a``, ``supply_b``, ``return_a`` and ``return_b``, each a `SpoolValve`.
     """
 
-    ICON = icons.ORIFICE
+    ICON = icons.SPOOL_4
 
     width = ac.Parameter(unit="m", min=0, doc="width of the openings")
     C_d = ac.Parameter(0.61, min=0, doc="discharge coefficient")
@@ -243,6 +251,8 @@ class Actuator(_Filled):
     (`DynamicVolume`), ``piston`` (a `Mass`) and ``seal`` (a `Damper`). At ``s = 0`` the chambers have the lengths
     ``length_a`` and ``length_b``.
     """
+
+    ICON = icons.CYLINDER
 
     area_a = ac.Parameter(unit="m2", min=0, doc="area of the piston in chamber a")
     area_b = ac.Parameter(lambda self: self.area_a, unit="m2", min=0, doc="area in chamber b")

@@ -16,13 +16,19 @@ from .water import RHO
 class Boundary_pT(Boundary):  # noqa: N801 (Modelica's name)
     """A `Boundary`; there is no temperature."""
 
+    ICON = icons.marked(icons.AMBIENT, "T")
+
 
 class FixedBoundary(Boundary):
     """A `Boundary`."""
 
+    ICON = icons.marked(icons.AMBIENT, "=")
+
 
 class MassFlowSource_T(MassFlowSource):  # noqa: N801 (Modelica's name)
     """A `MassFlowSource`; there is no temperature."""
+
+    ICON = icons.marked(icons.PUMP, "T")
 
 
 class StaticPipe(PartialTwoPortTransport):
@@ -53,7 +59,7 @@ class StaticPipe(PartialTwoPortTransport):
 class ValveLinear(PartialTwoPortTransport):
     """``m_flow = opening m_flow_nominal/dp_nominal dp``."""
 
-    ICON = icons.ORIFICE
+    ICON = icons.marked(icons.VALVE, "lin")
 
     dp_nominal = ac.Parameter(unit="Pa", min=0, doc="pressure drop where it is fully open")
     m_flow_nominal = ac.Parameter(unit="kg/s", min=0, doc="mass flow rate then")
@@ -70,7 +76,7 @@ class ValveIncompressible(PartialTwoPortTransport):
     By default ``Av`` follows from ``m_flow_nominal`` at ``dp_nominal`` where it is fully open.
     """
 
-    ICON = icons.ORIFICE
+    ICON = icons.marked(icons.VALVE, "√")
 
     dp_nominal = ac.Parameter(unit="Pa", min=0, doc="pressure drop where it is fully open")
     m_flow_nominal = ac.Parameter(unit="kg/s", min=0, doc="mass flow rate then")

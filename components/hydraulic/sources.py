@@ -31,7 +31,7 @@ class MassFlowSource(ac.Component):
     A pump from a reservoir, say. With ``use_m_flow_in`` the flow is the signal ``m_flow_in``.
     """
 
-    ICON = icons.PUMP
+    ICON = icons.marked(icons.PUMP, "m")
 
     use_m_flow_in = ac.Option(False, doc="whether the mass flow rate is a signal")
     m_flow = ac.Parameter(unit="kg/s", when="not use_m_flow_in", doc="mass flow rate")

@@ -76,6 +76,8 @@ class ElectroMagneticConverterWithLeakageInductance(_Converter):
     ``Psi = N Phi_ind`` [Wb] and ``L_stat = |Psi/i|`` [H].
     """
 
+    ICON = icons.marked(icons.CONVERTER, "σ")
+
     L = ac.Parameter(10e-3, unit="m", doc="length of the leakage path")
     A = ac.Parameter(10e-6, unit="m2", doc="cross-section of the leakage path")
     mu_rel = ac.Parameter(1.0, unit="1", min=0, doc="relative permeability of the leakage path")
@@ -110,7 +112,7 @@ class ConstantReluctance(TwoPort):
 class ConstantPermeance(TwoPort):
     """``Phi = G_m V_m``."""
 
-    ICON = icons.RELUCTANCE
+    ICON = icons.marked(icons.RELUCTANCE, "G")
 
     G_m = ac.Parameter(1.0, unit="H", doc="magnetic permeance")
 
@@ -122,7 +124,7 @@ class ConstantPermeance(TwoPort):
 class VariableReluctance(TwoPort):
     """``V_m = Phi R_m`` with the reluctance as a signal ``R_m`` [1/H]."""
 
-    ICON = icons.RELUCTANCE
+    ICON = icons.variable(icons.RELUCTANCE)
 
     R_m = ac.Input(unit="1/H", doc="magnetic reluctance")
 
@@ -134,7 +136,7 @@ class VariableReluctance(TwoPort):
 class VariablePermeance(TwoPort):
     """``Phi = G_m V_m`` with the permeance as a signal ``G_m`` [H]."""
 
-    ICON = icons.RELUCTANCE
+    ICON = icons.variable(icons.RELUCTANCE, "G")
 
     G_m = ac.Input(unit="H", doc="magnetic permeance")
 
@@ -149,6 +151,8 @@ class LeakageWithCoefficient(Reluctance):
     ``R_mUsefulTot`` [1/H], a signal, is the reluctance of the useful path, ``c_usefulFlux`` its share
     of the flux. Not for actuators in motion: the leakage would take part in the force.
     """
+
+    ICON = icons.marked(icons.RELUCTANCE, "σ")
 
     c_usefulFlux = ac.Parameter(
         unit="1", min=0, max=1, doc="useful flux over useful and leakage flux"
@@ -168,7 +172,7 @@ class EddyCurrent(TwoPort, ConditionalHeatPort):
     ``V_m = G der(Phi)``.
     """
 
-    ICON = icons.RELUCTANCE
+    ICON = icons.EDDY
 
     useConductance = ac.Option(False, doc="whether G replaces rho, l and A")
     G = ac.Parameter(1 / 0.098e-6, unit="S", min=0, doc="conductance of the path, A/(rho l)")
@@ -210,6 +214,8 @@ class Short(TwoPort):
 
 class Crossing(ac.Component):
     """Two branches that cross: ``port_p1`` is joined with ``port_p2``, ``port_n1`` with ``port_n2``."""
+
+    ICON = icons.CROSSED
 
     port_p1 = PositiveMagneticPort()
     port_p2 = PositiveMagneticPort()

@@ -5,7 +5,7 @@ from math import pi
 from typing import Any
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 
 from .interfaces import Reluctance
 from .soft_magnetic import BaseData
@@ -85,6 +85,8 @@ class FixedShape(Reluctance):
 class GenericFluxTube(FixedShape):
     """Any shape: ``A = area``, ``G_m = mu_0 mu_r A/l``."""
 
+    ICON = icons.marked(icons.RELUCTANCE, "A/l")
+
     l = ac.Parameter(0.01, unit="m", doc="length in the direction of flux")
     area = ac.Parameter(0.0001, unit="m2", doc="cross-section")
 
@@ -95,6 +97,8 @@ class GenericFluxTube(FixedShape):
 
 class Cuboid(FixedShape):
     """Rectangular cross-section: ``A = a b``, ``G_m = mu_0 mu_r A/l``."""
+
+    ICON = icons.tube("cuboid")
 
     l = ac.Parameter(0.01, unit="m", doc="length in the direction of flux")
     a = ac.Parameter(0.01, unit="m", doc="width of the cross-section")
@@ -108,6 +112,8 @@ class Cuboid(FixedShape):
 
 class HollowCylinderAxialFlux(FixedShape):
     """Axial flux in a (hollow) cylinder: ``A = pi (r_o**2 - r_i**2)``, ``G_m = mu_0 mu_r A/l``."""
+
+    ICON = icons.tube("axial")
 
     l = ac.Parameter(0.01, unit="m", doc="axial length")
     r_i = ac.Parameter(0.0, unit="m", doc="inner radius; zero for a cylinder")
@@ -125,6 +131,8 @@ class HollowCylinderRadialFlux(FixedShape):
     ``A = l alpha (r_o + r_i)/2`` is that of the mean radius.
     """
 
+    ICON = icons.tube("radial")
+
     l = ac.Parameter(0.01, unit="m", doc="axial length, orthogonal to the flux")
     r_i = ac.Parameter(0.01, unit="m", doc="inner radius")
     r_o = ac.Parameter(0.02, unit="m", doc="outer radius")
@@ -140,6 +148,8 @@ class HollowCylinderRadialFlux(FixedShape):
 class HollowCylinderCircumferentialFlux(FixedShape):
     """Flux around a hollow cylinder: ``A = l (r_o - r_i)``, ``G_m = mu_0 mu_r A/(alpha (r_o + r_i)/2)``."""
 
+    ICON = icons.tube("around")
+
     l = ac.Parameter(0.02, unit="m", doc="axial length, orthogonal to the flux")
     r_i = ac.Parameter(0.01, unit="m", doc="inner radius")
     r_o = ac.Parameter(0.02, unit="m", doc="outer radius")
@@ -153,6 +163,8 @@ class HollowCylinderCircumferentialFlux(FixedShape):
 
 class Toroid(FixedShape):
     """Flux around a toroid with a circular cross-section: ``A = pi d**2/4``, ``G_m = mu_0 mu_r A/(r alpha)``."""
+
+    ICON = icons.tube("toroid")
 
     r = ac.Parameter(0.1, unit="m", doc="mean radius of the toroid")
     d = ac.Parameter(0.01, unit="m", doc="diameter of the core")

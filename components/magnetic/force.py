@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 from acausal.components.mechanics.translational import Flange_b, Support
 
 from .interfaces import Reluctance
@@ -19,6 +19,8 @@ class Force(Reluctance):
     fixed at 0. ``dlBydx`` is 1 where it grows with the armature's position, else -1. The relative
     permeability ``mu_r`` is constant. A subclass states ``G_m`` [H] and its derivative ``dGmBydx`` [H/m].
     """
+
+    ICON = icons.tube("force")
 
     __modelica__ = None
 
@@ -63,6 +65,8 @@ class HollowCylinderAxialFlux(_Permeable):
     ``A = pi (r_o**2 - r_i**2)``.
     """
 
+    ICON = icons.tube("axial", "F")
+
     r_i = ac.Parameter(0.0, unit="m", doc="inner radius")
     r_o = ac.Parameter(0.01, unit="m", doc="outer radius")
     B = ac.Variable(unit="T", doc="flux density")
@@ -80,6 +84,8 @@ class HollowCylinderRadialFlux(_Permeable):
     ``B_avg = Phi/(pi (r_i + r_o) l)`` is the flux density at the mean radius.
     """
 
+    ICON = icons.tube("radial", "F")
+
     r_i = ac.Parameter(0.01, unit="m", doc="inner radius")
     r_o = ac.Parameter(0.015, unit="m", doc="outer radius")
     B_avg = ac.Variable(unit="T", doc="flux density at the mean radius")
@@ -93,6 +99,8 @@ class HollowCylinderRadialFlux(_Permeable):
 
 class CuboidParallelFlux(_Permeable):
     """Cuboid with the flux along the motion: ``G_m = mu_0 mu_r A/l``, ``A = a b``, ``B = Phi/A``."""
+
+    ICON = icons.tube("cuboid", "F∥")
 
     a = ac.Parameter(0.01, unit="m", doc="width of the cross-section")
     b = ac.Parameter(0.01, unit="m", doc="height of the cross-section")
@@ -108,6 +116,8 @@ class CuboidParallelFlux(_Permeable):
 class CuboidOrthogonalFlux(_Permeable):
     """Cuboid with the flux across the motion: ``G_m = mu_0 mu_r A/b``, ``A = a l``, ``B = Phi/A``."""
 
+    ICON = icons.tube("cuboid", "F⊥")
+
     a = ac.Parameter(0.01, unit="m", doc="width of the cross-section")
     b = ac.Parameter(0.01, unit="m", doc="height, in the direction of flux")
     B = ac.Variable(unit="T", doc="flux density")
@@ -121,6 +131,8 @@ class CuboidOrthogonalFlux(_Permeable):
 
 class LeakageAroundPoles(Force):
     """Leakage around poles at the distance ``l``: ``G_m = mu_0 w/pi log(1 + pi r/l)``."""
+
+    ICON = icons.tube("poles", "F")
 
     w = ac.Parameter(0.1, unit="m", doc="width; the mean circumference of round poles")
     r = ac.Parameter(0.01, unit="m", doc="radius of the leakage field")

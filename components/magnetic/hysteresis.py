@@ -28,7 +28,7 @@ class GenericHysteresis(TwoPort, ConditionalHeatPort):
 
     __modelica__ = "Modelica.Magnetic.FluxTubes.BaseClasses"
 
-    ICON = icons.RELUCTANCE
+    ICON = icons.HYSTERETIC
 
     l = ac.Parameter(0.1, unit="m", doc="length in the direction of flux")
     A = ac.Parameter(1e-4, unit="m2", doc="cross-section")
@@ -66,6 +66,8 @@ class GenericHysteresisTellinen(GenericHysteresis):
     branch and ``k = (hystF - B)/(hystF - hystR)``, else with the falling one and ``k = (B - hystR)/(hystF - hystR)``.
     A subclass states both branches over ``Hstat``, and the slope ``mu0`` in saturation.
     """
+
+    ICON = icons.marked(icons.HYSTERETIC, "T")
 
     __modelica__ = "Modelica.Magnetic.FluxTubes.BaseClasses"
 
@@ -107,6 +109,8 @@ class GenericHysteresisTellinen(GenericHysteresis):
 class GenericHystTellinenSoft(GenericHysteresisTellinen):
     """Soft magnetic: the branches are ``Js tanh((Hstat -+ Hc) H0/Hc)`` with ``tanh(H0) = Br/Js``."""
 
+    ICON = icons.marked(icons.HYSTERETIC, "S")
+
     Js = ac.Parameter(1.8, unit="T", doc="saturation polarization")
     Br = ac.Parameter(0.9, unit="T", doc="remanence")
     Hc = ac.Parameter(120.0, unit="A/m", doc="coercivity")
@@ -124,6 +128,8 @@ class GenericHystTellinenSoft(GenericHysteresisTellinen):
 
 class GenericHystTellinenHard(GenericHysteresisTellinen):
     """Hard magnetic: the branches are ``Br tanh(M H -+ H0)``, such that ``B = 0`` at ``H = +-Hc``."""
+
+    ICON = icons.marked(icons.HYSTERETIC, "H")
 
     Br = ac.Parameter(1.2, unit="T", doc="remanence")
     Hc = ac.Parameter(5e5, unit="A/m", doc="coercivity")
@@ -143,7 +149,7 @@ class GenericHystTellinenHard(GenericHysteresisTellinen):
 class GenericHystTellinenPermanentMagnet(GenericHystTellinenHard):
     """A permanent magnet that can lose its magnetization: it starts with ``MagRel = -1``."""
 
-    ICON = icons.MAGNET
+    ICON = icons.marked(icons.MAGNET, "T")
 
     MagRel = ac.Variable(
         unit="1", start=-1.0, fixed=True, doc="relative magnetization at the start"
@@ -153,11 +159,13 @@ class GenericHystTellinenPermanentMagnet(GenericHystTellinenHard):
 class GenericHystTellinenTable(GenericHysteresisTellinen):
     """The limiting loop by tables, `hysteresis_data.LoopTable`, interpolated by Akima's splines."""
 
+    ICON = icons.marked(icons.HYSTERETIC, "#")
+
     mat = ac.Option(None, doc="material, a hysteresis_data.LoopTable")
     K = ac.Parameter(1.0, unit="1", doc="slope in saturation over mu_0")
     sigma = ac.Parameter(lambda self: self.mat.sigma, unit="S/m", doc="conductivity")
-    tabris = ac.Module("_rising")
-    tabfal = ac.Module("_falling")
+    tabris = ac.Module("_rising", data=True)
+    tabfal = ac.Module("_falling", data=True)
 
     def _loop(self) -> hysteresis_data.LoopTable:
         if isinstance(self.mat, hysteresis_data.LoopTable):
@@ -183,6 +191,8 @@ class GenericHystTellinenTable(GenericHysteresisTellinen):
 
 class GenericHystTellinenEverett(GenericHysteresisTellinen):
     """The limiting loop by the Everett function of a material, see `hysteresis_data.Everett`."""
+
+    ICON = icons.marked(icons.HYSTERETIC, "E")
 
     mat = ac.Option(hysteresis_data.Everett(), doc="material, a hysteresis_data.Everett")
     sigma = ac.Parameter(lambda self: self.mat.sigma, unit="S/m", doc="conductivity")

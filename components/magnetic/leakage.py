@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 
 from .interfaces import Reluctance
 
@@ -13,6 +13,8 @@ __modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.Leakage"
 
 class Leakage(Reluctance):
     """Base: ``G_m`` [H] is ``mu_0`` times a length, which a subclass knows."""
+
+    ICON = icons.tube("poles")
 
     __modelica__ = None
 
@@ -36,6 +38,8 @@ class _Prism(Leakage):
 class QuarterCylinder(_Prism):
     """From an edge to the opposite plane through a quarter cylinder: ``G_m = 0.52 mu_0 l``."""
 
+    ICON = icons.tube("quarter")
+
     @property
     def _length(self) -> Any:
         return 0.52 * self.l
@@ -43,6 +47,8 @@ class QuarterCylinder(_Prism):
 
 class QuarterHollowCylinder(_Prism):
     """Around a quarter of a hollow cylinder: ``G_m = 2 mu_0 l log(1 + ratio)/pi``."""
+
+    ICON = icons.tube("quarter ring")
 
     ratio = ac.Parameter(doc="thickness over inner radius")
 
@@ -54,6 +60,8 @@ class QuarterHollowCylinder(_Prism):
 class HalfCylinder(_Prism):
     """Between the edges of a half cylinder: ``G_m = 0.26 mu_0 l``."""
 
+    ICON = icons.tube("half")
+
     @property
     def _length(self) -> Any:
         return 0.26 * self.l
@@ -61,6 +69,8 @@ class HalfCylinder(_Prism):
 
 class HalfHollowCylinder(_Prism):
     """Around a half hollow cylinder: ``G_m = mu_0 l log(1 + ratio)/pi``."""
+
+    ICON = icons.tube("half ring")
 
     ratio = ac.Parameter(doc="thickness over inner radius")
 
@@ -72,6 +82,8 @@ class HalfHollowCylinder(_Prism):
 class QuarterSphere(Leakage):
     """Between the corners of a quarter sphere: ``G_m = 0.077 mu_0 2 r``."""
 
+    ICON = icons.tube("quarter ball")
+
     r = ac.Parameter(0.005, unit="m", doc="radius")
 
     @property
@@ -81,6 +93,8 @@ class QuarterSphere(Leakage):
 
 class QuarterHollowSphere(Leakage):
     """Between the edges of a quarter hollow sphere: ``G_m = 0.25 mu_0 t``."""
+
+    ICON = icons.tube("quarter shell")
 
     t = ac.Parameter(unit="m", doc="thickness of the shell")
 
@@ -92,6 +106,8 @@ class QuarterHollowSphere(Leakage):
 class EighthOfSphere(Leakage):
     """From an edge to the opposite plane of an eighth of a sphere: ``G_m = 0.308 mu_0 r``."""
 
+    ICON = icons.tube("eighth")
+
     r = ac.Parameter(0.01, unit="m", doc="radius")
 
     @property
@@ -101,6 +117,8 @@ class EighthOfSphere(Leakage):
 
 class EighthOfHollowSphere(Leakage):
     """From an edge to the opposite plane of an eighth of a hollow sphere: ``G_m = 0.5 mu_0 t``."""
+
+    ICON = icons.tube("eighth shell")
 
     t = ac.Parameter(unit="m", doc="thickness of the shell")
 
@@ -115,6 +133,8 @@ class CoaxCylindersEndFaces(Leakage):
     ``G_m = 2 mu_0 (r_0 + l_g/2) log(1 + 2 min(t, r_0)/l_g)`` with the gap ``l_g = r_1 - r_0`` and the
     thickness ``t = r_2 - r_1``.
     """
+
+    ICON = icons.tube("coaxial")
 
     r_0 = ac.Parameter(10e-3, unit="m", doc="radius of the inner cylinder")
     r_1 = ac.Parameter(17e-3, unit="m", doc="inner radius of the outer cylinder")

@@ -59,6 +59,8 @@ class IdealGearR2T(PartialElementaryRotationalToTranslational):
     ``phi = ratio s``, ``0 = ratio flangeR.tau + flangeT.f``; angle and position count from the supports.
     """
 
+    ICON = icons.RACK
+
     ratio = ac.Parameter(unit="rad/m", doc="transmission ratio flangeR.phi / flangeT.s")
 
     def equations(self) -> Iterator[ac.Eq]:

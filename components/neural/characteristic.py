@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .choices import ZERO_CROSSING
 from .interfaces import PartialLaw, _named
@@ -25,6 +26,8 @@ class Characteristic(PartialLaw):
     Raises:
         DeclarationError: in one sentence, for options that do not go together.
     """
+
+    ICON = icons.network("y(u)")
 
     monotone = ac.Option(False, doc="the characteristic never falls")
     zero_crossing = ac.Option(None, choices=ZERO_CROSSING, doc="how it comes to vanish at 0")

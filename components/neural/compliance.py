@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.translational import Flange
 
 from .choices import FLOOR, ZERO_CROSSING
@@ -31,6 +32,8 @@ class Compliance(PartialNeural):
     solved for the difference; ``floor`` is 1e-3 there, where none is given. It starts near a derivative of
     ``output_scale / input_scale``.
     """
+
+    ICON = icons.network("c")
 
     passive = ac.Option(False, doc="it never gives back more energy than it took")
     monotone = ac.Option(False, doc="the law never falls; of an energy say convex")

@@ -5,6 +5,7 @@ from functools import partial
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.rotational.friction import PartialBearingFriction
 from acausal.components.translational.friction import PartialSupportFriction
 
@@ -39,12 +40,16 @@ class SupportFriction(PartialFrictionCurve, PartialSupportFriction):
     creeps.
     """
 
+    ICON = icons.network("fric")
+
 
 class BearingFriction(PartialFrictionCurve, PartialBearingFriction):
     """Friction in the support with a learned curve: ``tau = net(|w|)`` with the sign of ``w`` while it slides.
 
     At rest it locks, up to ``tau0_max = peak net(0)``, as `rotational.BearingFriction` does; with ``smooth`` it creeps.
     """
+
+    ICON = icons.network("bear")
 
 
 def _positive(

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import PartialNetwork, PartialTwoPort
 from .units import across_unit, flow_unit, per_second, product_unit
@@ -41,6 +42,8 @@ class Hysteresis(PartialTwoPort, PartialNetwork):
             ``output_scale`` the force then. ``odd=True`` makes it the same in both directions. ``net`` and ``memory``
             may be networks of your own; what is proved above is then for them to keep.
     """
+
+    ICON = icons.network("hyst")
 
     input_scale = ac.Option(1.0, doc="magnitude of the inputs, one number or one for each")
     output_scale = ac.Option(1.0, doc="magnitude of the output")

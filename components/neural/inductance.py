@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .choices import FLOOR
 from .interfaces import PartialNeural
@@ -31,6 +32,8 @@ class Inductance(PartialNeural):
     ``input_scale`` is a magnitude of the flow or speed, ``output_scale`` of the momentum; ``odd=True`` makes the
     momentum odd. See `PartialNeural` for the other arguments.
     """
+
+    ICON = icons.network("L")
 
     floor = ac.Option(FLOOR, doc="least derivative of the momentum, relative to that of the scales")
     promises = (*PartialNeural.promises, "floor")

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.planar import shapes
 from acausal.components.planar.conventions import turned
 from acausal.components.planar.interfaces import PartialTwoFrames
@@ -28,6 +29,8 @@ class Bushing(PartialNetwork, PartialTwoFrames):
     ``input_scale`` is the magnitude of the displacements, ``rate_scale`` that of their rates, one number or one for
     each; ``output_scale`` and ``loss_scale`` are those of the first effort, elastic and damping.
     """
+
+    ICON = icons.network("bush")
 
     odd = ac.Option(False, doc="the same from both sides")
     passive = ac.Option(False, doc="the energy is never negative, and zero at zero")
@@ -99,6 +102,8 @@ class Tyre(PartialLaw, PartialSlippingWheel):
     bounded. The load is ``fN = max(0, N + dynamicLoad)`` [N]. ``input_scale`` and ``output_scale`` are magnitudes of
     slip and friction coefficient.
     """
+
+    ICON = icons.network("tyre")
 
     passive = ac.Option(True, doc="the force is never along the slip")
     extrapolation = ac.Option(

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.translational import Flange
 
 from .interfaces import PartialNetwork, PartialTwoPort
@@ -16,6 +17,8 @@ class CompliancePort(PartialTwoPort):
     Where the potential is a position, ``x`` is the difference of the positions, and the effort ``e`` the force.
     Elsewhere ``der(x)`` is the flow, so ``x`` is a charge or the like, and ``e`` the difference of the potentials.
     """
+
+    ICON = icons.block("port")
 
     def _declare(self) -> None:
         super()._declare()
@@ -55,6 +58,8 @@ class MultiportCompliance(PartialNetwork):
         DeclarationError: in one sentence, for options that do not go together, or domains whose energies are not
             the same.
     """
+
+    ICON = icons.network("c n")
 
     odd = ac.Option(False, doc="the same from both sides")
     passive = ac.Option(False, doc="the energy is never negative, and zero at zero")

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.thermal import HeatPort
 
 from .choices import ZERO_CROSSING
@@ -28,6 +29,8 @@ class Resistance(PartialNeural):
     They combine: see `acausal.networks.Law`. With ``useHeatPort``, for passive laws in domains where difference
     times flow is a power, ``lossPower`` leaves at ``heatPort``. See `PartialNeural` for the other arguments.
     """
+
+    ICON = icons.network("R")
 
     passive = ac.Option(False, doc="the law has the sign of its first input")
     monotone = ac.Option(False, doc="the law never falls")

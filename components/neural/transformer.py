@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.rotational import Flange
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
@@ -45,6 +46,8 @@ class LossyTransformer(PartialNetwork, PartialElementaryConditionalHeatPortWitho
         modifiers: of everything else. ``input_scale`` is a magnitude of the rate ``r_b``, or of it and each of the
             secondary inputs.
     """
+
+    ICON = icons.network("η")
 
     ratio = ac.Parameter(1.0, doc="rate at a over rate at b")
     input_scale = ac.Option(1.0, doc="magnitude of the inputs, one number or one for each")

@@ -84,6 +84,8 @@ class RigidNoLossExternal(PartialGear):
 class RigidNoLossInternal(PartialGear):
     """Gear A within the ring gear B: they turn in the same direction."""
 
+    ICON = icons.marked(icons.GEAR, "in")
+
     _INSIDE = True
 
 

@@ -107,6 +107,8 @@ class CutRevolute(Revolute):
     ``T``.
     """
 
+    ICON = icons.marked(icons.REVOLUTE, "cut")
+
     __modelica__ = None
 
     stateSelect = ac.Option("avoid", choices=STATE_SELECT, doc="priority of phi and w as states")
@@ -176,6 +178,8 @@ class DryFrictionBasedRolling(PartialRolling, thermal.PartialElementaryCondition
     Friction rises smoothly to ``mu_A`` at the speed ``vAdhesion`` and falls to ``mu_S`` from ``vSlide`` on
     (`striple`). So it creeps at rest, and there are no events.
     """
+
+    ICON = icons.marked(icons.ROLLING, "dry")
 
     vAdhesion = ac.Parameter(unit="m/s", doc="slip at which friction is greatest")
     vSlide = ac.Parameter(unit="m/s", doc="slip from which on friction is that of sliding")

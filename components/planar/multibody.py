@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any, ClassVar
 
 import acausal as ac
+from acausal.components import icons
 
 MULTIBODY = "Modelica.Mechanics.MultiBody"
 __modelica__ = (f"{MULTIBODY}.Parts", "MB.Parts")
@@ -64,6 +65,8 @@ def _unit(v: Any) -> list[Any]:
 class World(ac.Component):
     """The spatial world: its frame, and gravity ``g`` along ``n``."""
 
+    ICON = icons.WORLD
+
     __modelica__ = (MULTIBODY, "MB")
 
     g = ac.Parameter(9.81, unit="m/s2", doc="acceleration of gravity")
@@ -81,6 +84,8 @@ class World(ac.Component):
 
 class Fixed(ac.Component):
     """A frame at the place ``r`` [m], with the axes of the world."""
+
+    ICON = icons.FIXED
 
     r = ac.Parameter(0.0, unit="m", shape=3, doc="position in the world")
     frame_b = Frame()
@@ -105,6 +110,8 @@ class FixedRotation(PartialTwoFrames):
     ``n_y`` in the plane of x and y; ``PlanarRotationSequence``, by ``angles`` about the axes ``sequence``. Angles are
     in degrees, as in Modelica.
     """
+
+    ICON = icons.ROD
 
     r = ac.Parameter(0.0, unit="m", shape=3, doc="from frame_a to frame_b, resolved in frame_a")
     rotationType = ac.Option(
@@ -155,6 +162,8 @@ def _about(n: Any, degrees: Any) -> list[list[Any]]:
 class Body(ac.Component):
     """A mass ``m`` whose frame does not turn: ``m (a - gravity)`` acts at ``r_CM`` [m]."""
 
+    ICON = icons.MASS
+
     OUTER: ClassVar = {"gravity": "world.gravity"}
     UNUSED = (
         *("animation", "sphereDiameter", "cylinderDiameter"),
@@ -185,6 +194,8 @@ class Body(ac.Component):
 
 class Prismatic(PartialTwoFrames):
     """A joint along ``n``, without friction: ``frame_b`` is ``s`` [m] away."""
+
+    ICON = icons.PRISMATIC
 
     __modelica__ = (f"{MULTIBODY}.Joints", "MB.Joints")
     UNUSED = ("animation", "useAxisFlange", "boxWidth", "boxHeight", "boxColor", "stateSelect")

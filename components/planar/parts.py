@@ -103,7 +103,7 @@ class FixedTranslation(Offset):
 class FixedRotation(PartialTwoFrames):
     """Two frames at one place, ``frame_b`` turned by ``alpha`` [rad] against ``frame_a``."""
 
-    ICON = icons.ROD
+    ICON = icons.marked(icons.ROD, "∠")
     UNUSED = (*DRAWN, "cylinderLength", "cylinderDiameter", "cylinderColor")
 
     alpha = ac.Parameter(unit="rad", doc="fixed angle from frame_a to frame_b")

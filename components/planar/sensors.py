@@ -81,6 +81,8 @@ class PartialRelative(PartialResolving, PartialTwoFrames):
 class AbsolutePosition(PartialAbsolute):
     """Position and angle ``r`` [m, m, rad] of ``frame_a``; the angle counts from the frame whose axes are used."""
 
+    ICON = icons.meter("r")
+
     r = ac.Output(shape=3, doc="position and angle")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -93,6 +95,8 @@ class AbsolutePosition(PartialAbsolute):
 class AbsoluteVelocity(PartialAbsolute):
     """Speed ``v`` [m/s, m/s, rad/s] of ``frame_a`` in the world, along the axes of the chosen frame."""
 
+    ICON = icons.meter("v")
+
     v = ac.Output(shape=3, doc="speed and angular speed")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -104,6 +108,8 @@ class AbsoluteVelocity(PartialAbsolute):
 
 class AbsoluteAcceleration(PartialAbsolute):
     """Acceleration ``a`` [m/s2, m/s2, rad/s2] of ``frame_a`` in the world, along the axes of the chosen frame."""
+
+    ICON = icons.meter("a")
 
     v_0 = ac.Variable(shape=3, doc="speed and angular speed, resolved in the world")
     a = ac.Output(shape=3, doc="acceleration and angular acceleration")
@@ -119,6 +125,8 @@ class AbsoluteAcceleration(PartialAbsolute):
 class RelativePosition(PartialRelative):
     """Position and angle ``r_rel`` [m, m, rad] of ``frame_b`` against ``frame_a``."""
 
+    ICON = icons.meter2("r")
+
     r_rel = ac.Output(shape=3, doc="position and angle")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -128,6 +136,8 @@ class RelativePosition(PartialRelative):
 
 class RelativeVelocity(PartialRelative):
     """Speed ``v_rel`` [m/s, m/s, rad/s] of ``frame_b`` as seen from ``frame_a``, along the axes of the chosen frame."""
+
+    ICON = icons.meter2("v")
 
     r_a = ac.Variable(shape=3, doc="position and angle, resolved in frame_a")
     v_rel = ac.Output(shape=3, doc="speed and angular speed")
@@ -142,6 +152,8 @@ class RelativeVelocity(PartialRelative):
 
 class RelativeAcceleration(RelativeVelocity):
     """The derivative ``a_rel`` [m/s2, m/s2, rad/s2] of the speed that `RelativeVelocity` measures."""
+
+    ICON = icons.meter2("a")
 
     v_rel = ac.Variable(shape=3, doc="speed and angular speed")
     a_rel = ac.Output(shape=3, doc="acceleration and angular acceleration")
@@ -183,6 +195,8 @@ class TransformAbsoluteVector(PartialTransform):
     As in Modelica's library the angle of ``frame_r_in`` is added to the third element where the frames differ.
     """
 
+    ICON = icons.block("R v")
+
     frame_r_in = ac.Option("frame_a", choices=ABSOLUTE, doc="frame whose axes r_in has")
     frame_r_out = ac.Option("frame_a", choices=ABSOLUTE, doc="frame whose axes r_out has")
     frame_a = Frame()
@@ -198,6 +212,8 @@ class TransformAbsoluteVector(PartialTransform):
 class TransformRelativeVector(PartialTransform, PartialTwoFrames):
     """Resolves a vector along other axes; the third element stays."""
 
+    ICON = icons.block("Rᵣ v")
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield from free(self.frame_a)
@@ -207,7 +223,7 @@ class TransformRelativeVector(PartialTransform, PartialTwoFrames):
 class Distance(PartialTwoFrames):
     """The ``distance`` [m] of two frames."""
 
-    ICON = icons.SENSOR2
+    ICON = icons.meter2("d")
     UNUSED = ARROW
 
     s_small = ac.Parameter(1e-10, unit="m", min=0, doc="distance below which it is smoothed")
@@ -241,6 +257,8 @@ class PartialRigidSensor(PartialTwoFrames):
 class Power(PartialRigidSensor):
     """Power [W] that enters at ``frame_a`` and leaves at ``frame_b``."""
 
+    ICON = icons.meter2("P")
+
     power = ac.Output(unit="W", doc="power into frame_a")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -265,6 +283,8 @@ class PartialCutSensor(PartialRigidSensor):
 class CutForce(PartialResolving, PartialCutSensor):
     """The cut ``force`` [N], along the axes of the chosen frame."""
 
+    ICON = icons.meter2("f")
+
     force = ac.Output(unit="N", shape=2, doc="cut force")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -277,6 +297,8 @@ class CutForce(PartialResolving, PartialCutSensor):
 class CutTorque(PartialCutSensor):
     """The cut ``torque`` [N.m]."""
 
+    ICON = icons.meter2("τ")
+
     torque = ac.Output(unit="N.m", doc="cut torque")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -286,3 +308,5 @@ class CutTorque(PartialCutSensor):
 
 class CutForceAndTorque(CutForce, CutTorque):
     """The cut ``force`` [N], along the axes of the chosen frame, and the cut ``torque`` [N.m]."""
+
+    ICON = icons.meter2("fτ")

@@ -35,7 +35,7 @@ class WorldForce(PartialResolving):
 class RelativeForce(PartialResolving, PartialTwoFrames):
     """A force and a torque ``force`` [N, N, N.m] on what is connected to ``frame_b``, and against ``frame_a``."""
 
-    ICON = icons.FORCE
+    ICON = icons.FORCE2
     UNUSED = ARROW
 
     resolveInFrame = ac.Option("frame_a", choices=RELATIVE, doc="frame whose axes are used")
@@ -58,7 +58,7 @@ class QuadraticSpeedDependentForce(PartialResolving):
     of ``frame_b``.
     """
 
-    ICON = icons.FORCE
+    ICON = icons.marked(icons.FORCE, "v²")
     UNUSED = ARROW
 
     resolveInFrame = ac.Option("world", choices=ABSOLUTE, doc="frame whose axes are used")

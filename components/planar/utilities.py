@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
-from acausal.components import blocks
+from acausal.components import blocks, icons
 
 from .friction import s_form
 
@@ -12,6 +12,8 @@ __modelica__ = "PlanarMechanics.Utilities.Blocks"
 
 class LimiterS(blocks.SISO):
     """A limiter with a smooth transition: ``y_min`` up to ``x_min``, ``y_max`` from ``x_max`` on, a cubic between."""
+
+    ICON = icons.S_LIMITER
 
     x_min = ac.Parameter(0.0, doc="input up to which the output is y_min")
     x_max = ac.Parameter(1.0, doc="input from which on the output is y_max")
@@ -25,6 +27,8 @@ class LimiterS(blocks.SISO):
 
 class SquaretimesSign(ac.Component):
     """``blockSize`` inputs squared with their signs kept: ``y = u |u|``."""
+
+    ICON = icons.block("u|u|")
 
     blockSize = ac.Option(1, doc="number of inputs and of outputs")
     u = ac.Input(shape="blockSize", doc="input signals")

@@ -65,6 +65,8 @@ class PartialWheel(thermal.PartialElementaryConditionalHeatPortWithoutT):
 class IdealWheelJoint(PartialWheel):
     """A wheel that rolls without slip, and does not move sideways: ``v = v_long e0``, ``v_long = radius w_roll``."""
 
+    ICON = icons.WHEEL
+
     __modelica__ = "PlanarMechanics.VehicleComponents.Wheels"
 
     stateSelect = ac.Option("prefer", choices=STATE_SELECT, doc="priority of the speeds as states")
@@ -117,6 +119,8 @@ class DryFrictionWheelJoint(PartialSlippingWheel):
     Friction rises smoothly to ``mu_A`` at the slip ``vAdhesion`` and falls to ``mu_S`` from ``vSlide`` on.
     """
 
+    ICON = icons.marked(icons.WHEEL, "dry")
+
     __modelica__ = "PlanarMechanics.VehicleComponents.Wheels"
 
     N = ac.Parameter(unit="N", doc="normal force")
@@ -137,6 +141,8 @@ class SlipBasedWheelJoint(PartialSlippingWheel):
     ``vAdhesion = max(sAdhesion |radius w_roll|, vAdhesion_min)``, ``vSlide`` likewise; the load is
     ``fN = max(0, N + dynamicLoad)``.
     """
+
+    ICON = icons.marked(icons.WHEEL, "slip")
 
     __modelica__ = "PlanarMechanics.VehicleComponents.Wheels"
 
@@ -169,7 +175,7 @@ class AirResistanceLongitudinal(ac.Component):
     """
 
     __modelica__ = "PlanarMechanics.VehicleComponents"
-    ICON = icons.DAMPER
+    ICON = icons.marked(icons.DAMPER, "air")
 
     c_W = ac.Parameter(0.5, unit="1", min=0, doc="drag coefficient")
     area = ac.Parameter(2.0, unit="m2", min=0, doc="cross section")
@@ -197,7 +203,7 @@ class DifferentialGear(ac.Component):
     """A differential gear: ``flange_b`` drives, ``flange_left`` and ``flange_right`` share the torque."""
 
     __modelica__ = "PlanarMechanics.VehicleComponents"
-    ICON = icons.PLANETARY
+    ICON = icons.DIFFERENTIAL
 
     flange_b = rotational.Flange()
     flange_left = rotational.Flange()

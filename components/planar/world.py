@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any, ClassVar
 
 import acausal as ac
+from acausal.components import icons
 
 from . import multibody
 from .conventions import GRAVITY
@@ -27,6 +28,8 @@ class PlanarWorld(ac.Component):
     hands it down: ``planar.Body(m=1.0, I=0.1, g=self.planarWorld.g)``.
     """
 
+    ICON = icons.WORLD
+
     UNUSED = _DRAWN
 
     constantGravity = ac.Parameter(
@@ -48,6 +51,8 @@ class PlanarWorldIn3D(PlanarWorld):
     With ``inheritGravityFromMultiBody`` gravity is that of the spatial world along the plane's x- and y-axis; the plane
     may be turned about the direction of gravity only. What moves in the plane does not act on the spatial frame.
     """
+
+    ICON = icons.marked(icons.WORLD, "3D")
 
     UNUSED = _DRAWN
     OUTER: ClassVar = {"gravity": "world.gravity"}

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.choices import STATE_SELECT
 
 from .interfaces import Flange, PartialTwoFlanges
@@ -16,6 +17,8 @@ class InitializeFlange(ac.Component):
     Each of the three holds only with its option ``use_phi_start``, ``use_w_start``, ``use_a_start``.
     The flange carries no torque.
     """
+
+    ICON = icons.block("t = 0")
 
     use_phi_start = ac.Option(True, doc="whether the initial angle is given")
     use_w_start = ac.Option(True, doc="whether the initial speed is given")
@@ -53,6 +56,8 @@ class RelativeStates(PartialTwoFlanges):
     before the states of inertias. ``phi_nominal`` [rad] is the magnitude of ``phi_rel``.
     """
 
+    ICON = icons.block("Δφ, Δω")
+
     stateSelect = ac.Option(
         "always", choices=STATE_SELECT, doc="priority of phi_rel, w_rel as states"
     )
@@ -81,6 +86,8 @@ class TorqueToAngleAdaptor(ac.Component):
     without ``use_w``.
     """
 
+    ICON = icons.block("τ → φ")
+
     use_w = ac.Option(True, doc="whether the speed is an output")
     use_a = ac.Option(True, doc="whether the acceleration is an output")
     flange = Flange()
@@ -106,6 +113,8 @@ class AngleToTorqueAdaptor(ac.Component):
     needs them; without, ``phi`` is differentiated.
     """
 
+    ICON = icons.block("φ → τ")
+
     use_w = ac.Option(True, doc="whether the speed is an input")
     use_a = ac.Option(True, doc="whether the acceleration is an input")
     flange = Flange()
@@ -130,6 +139,8 @@ class GeneralTorqueToAngleAdaptor(ac.Component):
 
     ``pder = der(p)`` and ``pder2 = der(pder)`` exist with ``use_pder`` and ``use_pder2``.
     """
+
+    ICON = icons.marked(icons.block("τ → φ"), "*")
 
     use_pder = ac.Option(True, doc="whether the speed is an output")
     use_pder2 = ac.Option(True, doc="whether the acceleration is an output (needs use_pder)")
@@ -159,6 +170,8 @@ class GeneralAngleToTorqueAdaptor(ac.Component):
     ``pder`` and ``pder2`` serve as the derivatives of ``p`` where the model needs them;
     without them, ``p`` is differentiated.
     """
+
+    ICON = icons.marked(icons.block("φ → τ"), "*")
 
     use_pder = ac.Option(True, doc="whether the speed is an input")
     use_pder2 = ac.Option(True, doc="whether the acceleration is an input (needs use_pder)")

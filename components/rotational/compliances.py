@@ -118,3 +118,5 @@ class ElastoBacklash2(_Backlash):
     As `ElastoBacklash`, but ``tau_d`` counts fully: ``tau = tau_c + tau_d`` while that has the sign of
     ``tau_c``, else 0. In models with events, steps end where contact begins.
     """
+
+    ICON = icons.marked(icons.BACKLASH, "2")

@@ -70,7 +70,7 @@ class Coupling(PartialTwoFlanges):
     Both flanges take the same torque ``tau = flange_a.tau = flange_b.tau``; ``w = der(flange_a.phi)``.
     """
 
-    ICON = icons.DISC
+    ICON = icons.marked(icons.DISC, "−")
 
     w = ac.Variable(unit="rad/s", doc="speed of flange_a")
     tau = ac.Variable(unit="N.m", doc="torque of both flanges")

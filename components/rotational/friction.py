@@ -189,7 +189,7 @@ class OneWayClutch(PartialCompliantWithRelativeStates, _Pressed, Locking):
     ``tau/d_lock``.
     """
 
-    ICON = icons.CLUTCH
+    ICON = icons.ONE_WAY
 
     w_small = ac.Parameter(
         1e10, unit="rad/s", min=0, doc="as for PartialFriction, where Reinit changes w_rel"

@@ -109,7 +109,7 @@ class LossyGear(
     only where there are losses.
     """
 
-    ICON = icons.GEAR
+    ICON = icons.marked(icons.GEAR, "η")
 
     smoothness = ac.Option("LinearSegments", choices=SMOOTHNESS, doc="interpolation of the table")
     w_small = ac.Parameter(
@@ -226,7 +226,7 @@ class Gearbox(PartialTwoFlangesAndSupport, _Lossy):
     ``useHeatPort``, takes the losses of both. Choose options where the gearbox is made.
     """
 
-    ICON = icons.GEAR
+    ICON = icons.GEARBOX
 
     c = ac.Parameter(unit="N.m/rad", min=0, doc="elasticity of the gear")
     d = ac.Parameter(unit="N.m.s/rad", min=0, doc="damping of the gear")

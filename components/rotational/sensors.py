@@ -128,7 +128,7 @@ class PowerSensor(_CutSensor):
 class MultiSensor(_CutSensor):
     """Speed ``w`` [rad/s], cut torque ``tau`` [N.m] and ``power = tau w`` [W] at once."""
 
-    ICON = icons.meter2("ωτ")
+    ICON = icons.meters("ωτ")
 
     power = ac.Output(unit="W", doc="power into flange_a")
     w = ac.Output(unit="rad/s", doc="absolute speed of the flanges")

@@ -19,7 +19,7 @@ class Position(PartialElementaryOneFlangeAndSupport2):
     ``w = der(phi)``, ``a = der(w)``.
     """
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "φ")
 
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
@@ -59,7 +59,7 @@ class Speed(PartialElementaryOneFlangeAndSupport2):
     starts at ``w_ref``: ``a = (w_ref - w) 2 pi f_crit``, ``a = der(w)``.
     """
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "ω")
 
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
@@ -92,7 +92,7 @@ class Speed(PartialElementaryOneFlangeAndSupport2):
 class Accelerate(PartialElementaryOneFlangeAndSupport2):
     """The flange follows an acceleration signal ``a_ref`` [rad/s2]; ``phi`` and ``w`` start at 0."""
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "α")
 
     a_ref = ac.Input(unit="rad/s2", doc="reference acceleration")
     phi = ac.Variable(
@@ -115,7 +115,7 @@ class Move(PartialElementaryOneFlangeAndSupport2):
     together.
     """
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "φωα")
 
     u = ac.Input(shape=3, doc="angle, speed and acceleration of the flange")
 
@@ -127,7 +127,7 @@ class Move(PartialElementaryOneFlangeAndSupport2):
 class ConstantSpeed(PartialElementaryOneFlangeAndSupport2):
     """The flange turns with constant speed ``w_fixed`` [rad/s], whatever the torque."""
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "const")
 
     w_fixed = ac.Parameter(unit="rad/s", doc="speed")
     w = ac.Variable(unit="rad/s", doc="speed of the flange relative to the support")

@@ -50,6 +50,8 @@ class Torque2(PartialTwoFlanges):
 class TorqueStep(PartialTorque):
     """Step: ``tau = offsetTorque``, from ``startTime`` on ``tau = offsetTorque + stepTorque``."""
 
+    ICON = icons.marked(icons.TORQUE, "step")
+
     stepTorque = ac.Parameter(unit="N.m", doc="height of the step; a load if negative")
     offsetTorque = ac.Parameter(unit="N.m", doc="offset of the torque")
     startTime = ac.Parameter(0.0, unit="s", doc="time of the step")
@@ -72,6 +74,8 @@ class _SpeedDependentTorque(PartialTorque):
 
 class ConstantTorque(_SpeedDependentTorque):
     """Constant torque: ``tau = tau_constant`` [N.m]; ``w = der(phi)`` is its speed."""
+
+    ICON = icons.marked(icons.TORQUE, "const")
 
     tau_constant = ac.Parameter(unit="N.m", doc="driving torque; a load if negative")
 
@@ -101,6 +105,8 @@ class LinearSpeedDependentTorque(_NominalTorque):
     Without ``TorqueDirection`` ``tau = tau_nominal w/w_nominal``.
     """
 
+    ICON = icons.marked(icons.TORQUE, "ω")
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         ratio = ac.Abs(self._ratio) if self.TorqueDirection else self._ratio
@@ -112,6 +118,8 @@ class QuadraticSpeedDependentTorque(_NominalTorque):
 
     Without ``TorqueDirection`` ``tau = tau_nominal (w/w_nominal) |w/w_nominal|``.
     """
+
+    ICON = icons.marked(icons.TORQUE, "ω²")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
@@ -127,6 +135,8 @@ class InverseSpeedDependentTorque(_NominalTorque):
     ``|w| < w0``; as in Modelica that jumps at ``w0`` unless ``w0 = w_nominal``.
     """
 
+    ICON = icons.marked(icons.TORQUE, "1/ω")
+
     w0 = ac.Parameter(unit="rad/s", min=0, doc="speed below which the torque is bounded")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -141,6 +151,8 @@ class SignTorque(_SpeedDependentTorque):
     A positive ``tau_nominal`` [N.m] drives, a negative brakes, in both directions. The sign is
     smoothed below ``w0`` as ``reg`` says (`acausal.components.laws.regularized_sign`).
     """
+
+    ICON = icons.marked(icons.TORQUE, "sign")
 
     tau_nominal = ac.Parameter(unit="N.m", doc="nominal driving torque; a load if negative")
     reg = ac.Option("Exp", choices=REGULARIZATION, doc="how the sign of w is smoothed")
@@ -162,7 +174,7 @@ class EddyCurrentTorque(
     coefficient ``alpha`` of `acausal.components.laws.temperature_factor`; ``lossPower = tau w``.
     """
 
-    ICON = icons.BRAKE
+    ICON = icons.MAGNETIC_BRAKE
 
     useExcitationInput = ac.Option(False, doc="whether excitation is an input")
     constantExcitation = ac.Parameter(1.0, doc="relative excitation without input")

@@ -17,6 +17,8 @@ __modelica__ = "Modelica.Mechanics.Rotational.Examples.Utilities"
 class DirectInertia(ac.Component):
     """An inertia driven by ``tauDrive`` that gives its motion and takes the torque ``tau`` of what it drives."""
 
+    ICON = icons.boxed(icons.INERTIA, "τ → φ")
+
     J = ac.Parameter(1.0, unit="kg.m2", min=0, doc="moment of inertia")
     tauDrive = ac.Input(unit="N.m", doc="driving torque")
     tau = ac.Input(unit="N.m", doc="torque that the inertia gives on")
@@ -42,6 +44,8 @@ class DirectInertia(ac.Component):
 class InverseInertia(ac.Component):
     """An inertia moved as the signals say, and the torque ``tau`` that this takes."""
 
+    ICON = icons.boxed(icons.INERTIA, "φ → τ")
+
     J = ac.Parameter(1.0, unit="kg.m2", min=0, doc="moment of inertia")
     phi = ac.Input(unit="rad", doc="angle")
     w = ac.Input(unit="rad/s", doc="speed, consistent with phi")
@@ -62,7 +66,7 @@ class InverseInertia(ac.Component):
 class SpringDamperNoRelativeStates(PartialCompliant):
     """Spring and damper side by side, without states of their own: ``tau = c (phi_rel - phi_rel0) + d w_rel``."""
 
-    ICON = icons.SPRING_DAMPER
+    ICON = icons.marked(icons.SPRING_DAMPER, "*")
 
     c = ac.Parameter(unit="N.m/rad", min=0, doc="spring constant")
     d = ac.Parameter(unit="N.m.s/rad", min=0, doc="damping constant")
@@ -77,6 +81,8 @@ class SpringDamperNoRelativeStates(PartialCompliant):
 
 class SpringDamper(ac.Component):
     """Spring and damper between two motions, and the torques that these take."""
+
+    ICON = icons.boxed(icons.SPRING_DAMPER)
 
     c = ac.Parameter(1e4, unit="N.m/rad", min=0, doc="spring constant")
     d = ac.Parameter(1.0, unit="N.m.s/rad", min=0, doc="damping constant")
@@ -105,6 +111,8 @@ class SpringDamper(ac.Component):
 
 class Spring(ac.Component):
     """A spring between two angles, and the torques that these take."""
+
+    ICON = icons.boxed(icons.SPRING)
 
     c = ac.Parameter(1e4, unit="N.m/rad", min=0, doc="spring constant")
     phi_rel0 = ac.Parameter(0.0, unit="rad", doc="unstretched angle")

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import HeatPort
 
@@ -14,6 +15,8 @@ class GeneralHeatFlowToTemperatureAdaptor(ac.Component):
 
     ``pder = der(p)`` exists with ``use_pder``.
     """
+
+    ICON = icons.block("Q → T")
 
     use_pder = ac.Option(True, doc="whether the rate of the temperature is an output")
     heatPort = HeatPort()
@@ -34,6 +37,8 @@ class GeneralTemperatureToHeatFlowAdaptor(ac.Component):
     ``f`` [W] heats what is connected to the port. With ``use_pder`` the input ``pder`` is taken for the rate of ``p``
     wherever the model needs it; without, ``p`` is differentiated.
     """
+
+    ICON = icons.block("T → Q")
 
     use_pder = ac.Option(True, doc="whether the rate of the temperature is an input")
     heatPort = HeatPort()

@@ -45,7 +45,7 @@ class ThermalConductor(Element1D):
 class ThermalResistor(Element1D):
     """Heat conduction by a resistance, which may be zero: ``dT = R Q_flow``."""
 
-    ICON = icons.CONDUCTION
+    ICON = icons.marked(icons.CONDUCTION, "R")
 
     R = ac.Parameter(unit="K/W", doc="thermal resistance")
 
@@ -102,6 +102,8 @@ class Convection(_Convection):
 class ConvectiveResistor(_Convection):
     """Heat convection with a resistance that is a signal, and may be zero: ``dT = Rc Q_flow``."""
 
+    ICON = icons.marked(icons.CONVECTION, "R")
+
     Rc = ac.Input(unit="K/W", doc="convective thermal resistance")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -130,6 +132,8 @@ class ThermalCollector(_Collector):
     All have one temperature, and ``port_b.Q_flow + sum(port_a.Q_flow) = 0``.
     """
 
+    ICON = icons.TEE
+
     m = ac.Option(3, doc="number of heat ports that are collected")
 
     def __init__(self, *, m: int = 3, **modifiers: Any) -> None:
@@ -141,6 +145,8 @@ class ThermalCollectorMatrix(_Collector):
 
     The ports are numbered row by row: Modelica's ``port_a[i,j]`` is ``port_a[(i - 1) Np + j]`` here.
     """
+
+    ICON = icons.marked(icons.TEE, "n×m")
 
     Ns = ac.Option(None, doc="number of rows")
     Np = ac.Option(None, doc="number of columns")

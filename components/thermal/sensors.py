@@ -62,6 +62,8 @@ class ConditionalFixedHeatFlowSensor(ac.Component):
     ``port_a.Q_flow + port_b.Q_flow = 0``, as of a `HeatFlowSensor`.
     """
 
+    ICON = icons.marked(icons.meter2("Q"), "0")
+
     useFixedTemperature = ac.Option(False, doc="whether the temperature of the ports is fixed")
     T = ac.Parameter(293.15, unit="K", when="useFixedTemperature", doc="fixed temperature")
     port_a = HeatPort()

@@ -15,7 +15,7 @@ __modelica__ = "Modelica.Thermal.HeatTransfer.Sources"
 class FixedTemperature(scales.Kelvin):
     """A constant temperature, whatever the heat flow: ``port.T = T`` [K]."""
 
-    ICON = icons.TEMPERATURE
+    ICON = icons.marked(icons.TEMPERATURE, "=")
 
     T = ac.Parameter(unit="K", doc="temperature at the port")
     port = HeatPort()
@@ -60,6 +60,8 @@ class FixedHeatFlow(_HeatFlow):
     ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``: the losses of a machine, for example, that grow
     with its temperature.
     """
+
+    ICON = icons.marked(icons.HEAT_FLOW, "const")
 
     Q_flow = ac.Parameter(unit="W", doc="heat flow rate at the reference temperature")
 

@@ -15,7 +15,7 @@ __modelica__ = "Modelica.Thermal.HeatTransfer.Examples.Utilities"
 class DirectCapacity(ac.Component):
     """A heat capacitor heated by ``Q_flowDrive`` that gives its temperature and takes the heat ``Q_flow``."""
 
-    ICON = icons.HEAT_CAPACITY
+    ICON = icons.boxed(icons.HEAT_CAPACITY, "Q → T")
 
     C = ac.Parameter(1.0, unit="J/K", min=0, doc="heat capacity")
     Q_flowDrive = ac.Input(unit="W", doc="driving heat flow rate")
@@ -40,7 +40,7 @@ class DirectCapacity(ac.Component):
 class InverseCapacity(ac.Component):
     """A heat capacitor at the temperature that the signals say, and the heat flow rate that this takes."""
 
-    ICON = icons.HEAT_CAPACITY
+    ICON = icons.boxed(icons.HEAT_CAPACITY, "T → Q")
 
     C = ac.Parameter(1.0, unit="J/K", min=0, doc="heat capacity")
     T = ac.Input(unit="K", doc="temperature")
@@ -60,7 +60,7 @@ class InverseCapacity(ac.Component):
 class Conduction(ac.Component):
     """A thermal conductor between two temperatures, and the heat flow rates that these take."""
 
-    ICON = icons.CONDUCTION
+    ICON = icons.boxed(icons.CONDUCTION)
 
     G = ac.Parameter(1.0, unit="W/K", doc="thermal conductance")
     T1 = ac.Input(unit="K", doc="temperature of the left end")

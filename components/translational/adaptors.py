@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.choices import STATE_SELECT
 
 from .interfaces import Flange, PartialTwoFlanges
@@ -16,6 +17,8 @@ class InitializeFlange(ac.Component):
     Each of the three holds only with its option ``use_s_start``, ``use_v_start``, ``use_a_start``.
     The flange carries no force.
     """
+
+    ICON = icons.block("t = 0")
 
     use_s_start = ac.Option(True, doc="whether the initial position is given")
     use_v_start = ac.Option(True, doc="whether the initial speed is given")
@@ -52,6 +55,8 @@ class RelativeStates(PartialTwoFlanges):
     With the default ``stateSelect`` they are preferred over the states of masses.
     """
 
+    ICON = icons.block("Δs, Δv")
+
     stateSelect = ac.Option(
         "always", choices=STATE_SELECT, doc="priority of s_rel, v_rel as states"
     )
@@ -72,6 +77,8 @@ class GeneralForceToPositionAdaptor(ac.Component):
 
     ``pder = der(p)`` and ``pder2 = der(pder)`` exist with ``use_pder`` and ``use_pder2``.
     """
+
+    ICON = icons.block("f → s")
 
     use_pder = ac.Option(True, doc="whether the speed is an output")
     use_pder2 = ac.Option(True, doc="whether the acceleration is an output (needs use_pder)")
@@ -101,6 +108,8 @@ class GeneralPositionToForceAdaptor(ac.Component):
     ``pder`` and ``pder2`` serve as the derivatives of ``p`` where the model needs them;
     without them, ``p`` is differentiated.
     """
+
+    ICON = icons.block("s → f")
 
     use_pder = ac.Option(True, doc="whether the speed is an input")
     use_pder2 = ac.Option(True, doc="whether the acceleration is an input (needs use_pder)")

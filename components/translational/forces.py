@@ -55,6 +55,8 @@ class Force2(PartialTwoFlanges):
 class ConstantForce(PartialForce):
     """Constant force: ``f = -f_constant``; a positive ``f_constant`` [N] drives forward."""
 
+    ICON = icons.marked(icons.FORCE, "const")
+
     f_constant = ac.Parameter(unit="N", doc="driving force; a load if negative")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -64,6 +66,8 @@ class ConstantForce(PartialForce):
 
 class ForceStep(PartialForce):
     """Step: ``f = -offsetForce``, from ``startTime`` on ``f = -offsetForce - stepForce``."""
+
+    ICON = icons.marked(icons.FORCE, "step")
 
     stepForce = ac.Parameter(unit="N", doc="height of the step; a load if negative")
     offsetForce = ac.Parameter(unit="N", doc="offset of the force")
@@ -96,6 +100,8 @@ class LinearSpeedDependentForce(_NominalForce):
     Without ``ForceDirection`` ``f = -f_nominal v/v_nominal``.
     """
 
+    ICON = icons.marked(icons.FORCE, "v")
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         ratio = ac.Abs(self._ratio) if self.ForceDirection else self._ratio
@@ -107,6 +113,8 @@ class QuadraticSpeedDependentForce(_NominalForce):
 
     Without ``ForceDirection`` ``f = -f_nominal (v/v_nominal) |v/v_nominal|``.
     """
+
+    ICON = icons.marked(icons.FORCE, "v²")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
@@ -122,6 +130,8 @@ class InverseSpeedDependentForce(_NominalForce):
     ``|v| < v0``; as in Modelica that jumps at ``v0`` unless ``v0 = v_nominal``.
     """
 
+    ICON = icons.marked(icons.FORCE, "1/v")
+
     v0 = ac.Parameter(unit="m/s", min=0, doc="speed below which the force is bounded")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -136,6 +146,8 @@ class SignForce(PartialSpeedDependentForce):
     A positive ``f_nominal`` [N] drives, a negative brakes, in both directions. The sign is smoothed
     below ``v0`` as ``reg`` says (`acausal.components.laws.regularized_sign`).
     """
+
+    ICON = icons.marked(icons.FORCE, "sign")
 
     f_nominal = ac.Parameter(unit="N", doc="nominal driving force; a load if negative")
     reg = ac.Option("Exp", choices=REGULARIZATION, doc="how the sign of v is smoothed")
@@ -155,7 +167,7 @@ class EddyCurrentForce(PartialElementaryOneFlangeAndSupport2, PartialElementaryC
     coefficient ``alpha`` of `acausal.components.laws.temperature_factor`; ``lossPower = f v``.
     """
 
-    ICON = icons.BRAKE
+    ICON = icons.MAGNETIC_BRAKE
 
     useExcitationInput = ac.Option(False, doc="whether excitation is an input")
     constantExcitation = ac.Parameter(1.0, doc="relative excitation without input")

@@ -136,6 +136,8 @@ class RollingResistance(PartialSpeedDependentForce):
     ``cr`` and the inclination (tangent of the slope's angle) are parameters or input signals.
     """
 
+    ICON = icons.marked(icons.FORCE, "roll")
+
     fWeight = ac.Parameter(unit="N", doc="load of the wheel by gravity")
     useCrInput = ac.Option(False, doc="whether cr is an input")
     CrConstant = ac.Parameter(0.01, doc="coefficient of rolling resistance without input")

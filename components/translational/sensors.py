@@ -128,7 +128,7 @@ class PowerSensor(_CutSensor):
 class MultiSensor(_CutSensor):
     """Speed ``v`` [m/s], cut force ``f`` [N] and ``power = f v`` [W] at once."""
 
-    ICON = icons.meter2("vf")
+    ICON = icons.meters("vf")
 
     power = ac.Output(unit="W", doc="power into flange_a")
     f = ac.Output(unit="N", doc="force in flange_a, = -flange_b.f")

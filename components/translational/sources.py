@@ -18,7 +18,7 @@ class Position(PartialElementaryOneFlangeAndSupport2):
     ``a = ((s_ref - s) w - 1.3617 v) w / 0.6180`` with ``w = 2 pi f_crit``, ``v = der(s)``, ``a = der(v)``.
     """
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "s")
 
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
@@ -57,7 +57,7 @@ class Speed(PartialElementaryOneFlangeAndSupport2):
     starts at ``v_ref``: ``a = (v_ref - v) 2 pi f_crit``, ``a = der(v)``.
     """
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "v")
 
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
@@ -90,7 +90,7 @@ class Speed(PartialElementaryOneFlangeAndSupport2):
 class Accelerate(PartialElementaryOneFlangeAndSupport2):
     """The flange follows an acceleration signal ``a_ref`` [m/s2]; ``s`` and ``v`` start at 0."""
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "a")
 
     a_ref = ac.Input(unit="m/s2", doc="reference acceleration")
     s = ac.Variable(
@@ -113,7 +113,7 @@ class Move(PartialElementaryOneFlangeAndSupport2):
     fit together.
     """
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "s v a")
 
     u = ac.Input(shape=3, doc="position, speed and acceleration of the flange")
 
@@ -125,7 +125,7 @@ class Move(PartialElementaryOneFlangeAndSupport2):
 class ConstantSpeed(PartialSpeedDependentForce):
     """The flange moves with constant speed ``v_fixed`` [m/s], whatever the force."""
 
-    ICON = icons.MOVED
+    ICON = icons.marked(icons.MOVED, "const")
 
     v_fixed = ac.Parameter(unit="m/s", doc="speed")
 

@@ -33,7 +33,7 @@ class MassWithStopAndFriction(
     ``1/d_stop``.
     """
 
-    ICON = icons.MASS
+    ICON = icons.STOPPED
 
     m = ac.Parameter(unit="kg", min=0, doc="mass")
     smax = ac.Parameter(unit="m", doc="right stop for the right end")

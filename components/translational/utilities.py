@@ -18,6 +18,8 @@ __modelica__ = "Modelica.Mechanics.Translational.Examples.Utilities"
 class DirectMass(ac.Component):
     """A mass driven by ``fDrive`` that gives its motion and takes the force ``f`` of what it drives."""
 
+    ICON = icons.boxed(icons.MASS, "f → s")
+
     m = ac.Parameter(1.0, unit="kg", min=0, doc="mass")
     fDrive = ac.Input(unit="N", doc="driving force")
     f = ac.Input(unit="N", doc="force that the mass gives on")
@@ -43,6 +45,8 @@ class DirectMass(ac.Component):
 class InverseMass(ac.Component):
     """A mass moved as the signals say, and the force ``f`` that this takes."""
 
+    ICON = icons.boxed(icons.MASS, "s → f")
+
     m = ac.Parameter(1.0, unit="kg", min=0, doc="mass")
     s = ac.Input(unit="m", doc="position")
     v = ac.Input(unit="m/s", doc="speed, consistent with s")
@@ -63,7 +67,7 @@ class InverseMass(ac.Component):
 class SpringDamperNoRelativeStates(PartialCompliant):
     """Spring and damper side by side, without states of their own: ``f = c (s_rel - s_rel0) + d v_rel``."""
 
-    ICON = icons.SPRING_DAMPER
+    ICON = icons.marked(icons.SPRING_DAMPER, "*")
 
     c = ac.Parameter(unit="N/m", min=0, doc="spring constant")
     d = ac.Parameter(unit="N.s/m", min=0, doc="damping constant")
@@ -78,6 +82,8 @@ class SpringDamperNoRelativeStates(PartialCompliant):
 
 class SpringDamper(ac.Component):
     """Spring and damper between two motions, and the forces that these take."""
+
+    ICON = icons.boxed(icons.SPRING_DAMPER)
 
     c = ac.Parameter(1e4, unit="N/m", min=0, doc="spring constant")
     d = ac.Parameter(1.0, unit="N.s/m", min=0, doc="damping constant")
@@ -106,6 +112,8 @@ class SpringDamper(ac.Component):
 
 class Spring(ac.Component):
     """A spring between two positions, and the forces that these take."""
+
+    ICON = icons.boxed(icons.SPRING)
 
     c = ac.Parameter(1e4, unit="N/m", min=0, doc="spring constant")
     s_rel0 = ac.Parameter(0.0, unit="m", doc="unstretched length")

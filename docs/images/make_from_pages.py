@@ -6,10 +6,14 @@ import sys
 import tempfile
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import matplotlib
+from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
 
 matplotlib.use("Agg")
+save = Figure.savefig
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -29,8 +33,22 @@ PAGES = (
 )
 
 
+def save_both(figure: Figure, path: str, **options: Any) -> None:
+    """Save a figure of the gallery twice: as it is, and with its panels below each other, for phones."""
+    save(figure, path, **options)
+    panels = [axes for axes in figure.axes if axes.get_subplotspec() is not None]
+    if not path.startswith("gallery-") or len(panels) < 2:
+        return
+    rows = GridSpec(len(panels), 1, figure=figure)
+    for axes, row in zip(panels, rows, strict=True):
+        axes.set_subplotspec(row)
+    figure.set_size_inches(4.6, 3.0 * len(panels))
+    save(figure, path.replace(".png", "-narrow.png"), **options)
+
+
 def main() -> None:
     """Run the pages in an empty folder and take the pictures that they leave there."""
+    Figure.savefig = save_both
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         for name in sys.argv[1:] or PAGES:

@@ -46,6 +46,15 @@ def test_eigenvalues_and_damping(linearized: ac.Linearization) -> None:
     assert view.count("<table>") == 4
 
 
+def test_no_zero_has_a_sign_in_print() -> None:
+    A, nothing = np.array([[-0.0, 1.0], [-1.0, -0.0]]), np.zeros((0, 0))
+    none = np.zeros((2, 0))
+    undamped = ac.Linearization(
+        A, none, none.T, nothing, ("x", "v"), (), (), x=np.zeros(2), u=np.zeros(0)
+    )
+    assert "-0" not in repr(undamped)
+
+
 def test_real_eigenvalues_are_complex_numbers_too() -> None:
     values = np.diag([-3.0, -2.0])
     row = np.zeros((1, 2))

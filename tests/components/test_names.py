@@ -64,3 +64,8 @@ def test_rotational_mechanics_does_not_import_translational_mechanics() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == "False"
+
+
+def test_a_prompt_completes_the_packages_alone() -> None:
+    assert dir(components) == sorted(components.PACKAGES)
+    assert {"rotational", "blocks", "neural"} <= set(dir(components))

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 import pytest
 
 import acausal as ac
-from acausal.components import electrical as el, translational as tl
+from acausal.components import blocks, electrical as el, translational as tl
 from examples.qvm.model import with_networks
 from tests.support.counted import calls_below
 from tests.support.drawn import Bridge, Chain, Controller, Drive, Tree
@@ -96,6 +96,12 @@ def test_sub_models_open() -> None:
     assert "controller.pi" in attributes(alone, "component")
 
 
+def test_at_depth_zero_a_model_is_one_box() -> None:
+    drawing = ac.diagram(Drive().controller, depth=0)
+    assert attributes(drawing, "component") == ["controller"]
+    assert attributes(ac.diagram(el.Resistor(R=1.0), depth=0), "connection") == []
+
+
 def test_wires_of_an_opened_component_go_on_inside_it() -> None:
     placed = ac.diagram(Drive(), depth=2).placed
     (box,) = (box for box in placed.boxes if box.inner is not None)
@@ -120,6 +126,15 @@ def test_a_connection_into_a_part_of_a_part_gets_a_port() -> None:
 def test_what_holds_a_network_is_tinted() -> None:
     drawing = ac.diagram(with_networks())
     assert drawing.svg.count('fill="#e0962f" fill-opacity="0.16"') == 2
+
+
+def test_what_holds_a_table_is_not() -> None:
+    table = blocks.CombiTimeTable(table=[[0.0, 0.0], [1.0, 1.0]])
+    assert "fill-opacity" not in ac.diagram(table, depth=0).svg
+    assert (
+        "fill-opacity"
+        not in ac.diagram(el.TableVoltage(table=[[0.0, 0.0], [1.0, 1.0]]), depth=0).svg
+    )
 
 
 def test_signals_have_arrows_and_open_inputs_are_seen() -> None:
@@ -160,9 +175,9 @@ def test_only_components_are_drawn(model: object) -> None:
         ac.diagram(model)
 
 
-@pytest.mark.parametrize("depth", [0, -1, 1.5, True, "2"])
-def test_a_depth_is_a_whole_number_from_one(depth: object) -> None:
-    with pytest.raises(ac.ModelError, match=r"depth=.*; give a whole number, 1 or more"):
+@pytest.mark.parametrize("depth", [-1, 1.5, True, "2"])
+def test_a_depth_is_a_whole_number(depth: object) -> None:
+    with pytest.raises(ac.ModelError, match=r"depth=.*; give a whole number, 0 or more"):
         ac.diagram(ac.Component(), depth=depth)
 
 

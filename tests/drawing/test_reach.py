@@ -4,16 +4,16 @@ import pytest
 
 import acausal as ac
 from acausal.components import electrical as el, icons, rotational as rot, thermal as th
-from acausal.drawing.pictures import _to_pin, _turn
+from acausal.drawing.pictures import _turn, to_pin
 from acausal.drawing.reach import reach
 
 
 @pytest.mark.parametrize(
     ("icon", "start", "way", "length"),
     [
-        (icons.MASS, (-30, 0), (1, 0), 0.0),
+        (icons.MASS, (-30, 0), (1, 0), 10.0),
         (icons.RESISTOR, (0, 16), (0, -1), 9.0),
-        (icons.PLANETARY, (30, -10), (-1, 0), 22.0),
+        (icons.PLANETARY, (30, 0), (-1, 0), 10.0),
         (icons.SENSOR, (0, -16), (0, 1), 2.0),
         (icons.SENSOR, (14, 0), (-1, 0), 0.0),
         (icons.IDLE, (0, -16), (0, 1), None),
@@ -51,7 +51,7 @@ def test_no_wire_ends_in_the_air() -> None:
     for placed in drawing.placed.boxes:
         icon, (a, b, c, d) = placed.box.icon, _turn(placed)[1]
         for number in placed.ports if not icon.frame else ():
-            x, y = _to_pin(placed, number)[-1]
+            x, y = to_pin(placed, number)[-1]
             p, q = x - placed.icon.x, y - placed.icon.y
             start = a * p + c * q, b * p + d * q
             ways = ((1, 0), (-1, 0), (0, 1), (0, -1))

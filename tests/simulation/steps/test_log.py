@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.simulation.log import LOG, EventList, Log, _effect
+from acausal.simulation.log import LOG, Event, EventList, Log, _effect
 from tests.support.hybrid import GRAVITY, Ball, Thermostat
 
 FALL = (2 / GRAVITY) ** 0.5
@@ -68,16 +68,33 @@ def test_an_event_is_told_in_the_words_of_what_came_true() -> None:
         mode = ac.Discrete(0, kind="int", doc="0 stuck, 1 sliding")
         begins = ac.Discrete(0, kind="bool", doc="1 where sliding begins")
         count = ac.Discrete(0, kind="int")
+        y = ac.Discrete(0, kind="bool", doc="output signal, 1 or 0")
         x = ac.Variable(start=0.0, fixed=True)
 
         def equations(self) -> Iterator[Any]:
             yield ac.Eq(ac.der(self.x), 1)
-            yield ac.When(self.x > 1, *(ac.Eq(v, 1) for v in (self.mode, self.begins, self.count)))
+            yield ac.When(
+                self.x > 1, *(ac.Eq(v, 1) for v in (self.mode, self.begins, self.count, self.y))
+            )
 
     system = ac.compile(Contact())
     before = {"mode": 0.0, "begins": 0.0, "count": 0.0}
     assert _effect(system, before, dict.fromkeys(before, 1.0)) == "sliding; sliding begins"
     assert _effect(system, {"begins": 1.0}, {"begins": 0.0}) == "begins becomes false"
+    assert _effect(system, {"y": 0.0}, {"y": 1.0}) == "y becomes true"
+
+
+def test_a_time_is_reached() -> None:
+    """The condition that made the event is over, and would read as its opposite."""
+    for condition in (
+        "step: startTime > time",
+        "step: time >= startTime",
+        "step: time < startTime",
+    ):
+        assert (
+            str(Event(0.5, condition, "step", {}, {})) == "t = 0.5 s: step: time reaches startTime"
+        )
+    assert str(Event(0.5, "ball: h < 0", "ball", {}, {})).endswith("ball: h < 0")
 
 
 def test_any_variable_on_both_sides_of_an_instant(run: Any) -> None:
