@@ -139,3 +139,17 @@ def test_where_a_stage_has_no_solution_the_step_and_its_derivatives_are_not_numb
     assert float(slope) == pytest.approx(float(difference), rel=1e-6)
     forward = jax.jit(jax.jacfwd(lambda k: end(k, dfx.ForwardMode())))
     assert float(forward(0.5)) == pytest.approx(float(slope), rel=1e-12)
+
+
+def test_a_first_step_whose_stages_have_no_solution_leaves_no_trace_at_the_start() -> None:
+    """Robertson's reaction from its usual start: the first step that is tried is far too long for Newton's method."""
+
+    def stated(s: Any) -> Any:
+        back, fast = 1e4 * s.b * (1 - s.a - s.b), 3e7 * s.b**2
+        yield ac.Eq(ac.der(s.a), -0.04 * s.a + back)
+        yield ac.Eq(ac.der(s.b), 0.04 * s.a - back - fast)
+
+    system = ac.compile(Equations("a b", stated))
+    found = ac.simulate(system, 40.0, x0={"a": 1.0, "b": 0.0}, solver="kvaerno5", saveat=[0, 40.0])
+    np.testing.assert_array_equal(found.x[0], [1.0, 0.0])
+    np.testing.assert_allclose(found.x[1], [0.7158271, 9.185535e-6], rtol=2e-6)  # Hairer and Wanner

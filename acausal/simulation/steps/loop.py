@@ -247,7 +247,7 @@ def advance(
             )
         dense, length = landing.within or (made.dense, h)
         between = partial(method.between, dense, c.t, length)
-        saved, following = _save(between, problem.ts, saved, c, landing.t, happens, runs)
+        saved, following = _save(between, problem.ts, saved, c, landing.t, happens, ok & runs)
         if rows is not None:
             k = jnp.where(ok & runs, c.counts.steps - before, len(rows.t))  # beyond: dropped
             row = row._replace(next=following)
@@ -349,9 +349,9 @@ def _save(
     c: Progress,
     reached: Array,
     happens: Bool[Array, ""],
-    runs: Array,
+    counts: Array,
 ) -> tuple[Saved | None, Array]:
-    """What is saved up to the time reached, and the next of the times to save.
+    """What is saved up to the time reached, and the next of the times to save; nothing where the step does not count.
 
     At the time of an event that is what follows it.
     """
@@ -361,7 +361,7 @@ def _save(
         if with_events:
             left = jnp.searchsorted(ts, reached, side="left")
             following = jnp.maximum(jnp.where(happens, left, following), c.next)
-        return None, following.astype(jnp.int32)
+        return None, jnp.where(counts, following, c.next).astype(jnp.int32)
     if not len(ts):
         return saved, c.next
 
@@ -369,7 +369,7 @@ def _save(
         j = state[1]
         at = ts[jnp.minimum(j, len(ts) - 1)]
         here = (at < reached) | ((at == reached) & ~happens) if with_events else at <= reached
-        return runs & (j < len(ts)) & here
+        return counts & (j < len(ts)) & here
 
     def one(state: tuple[Saved, Array], within: Array) -> tuple[Saved, Array]:
         saved, j = state
