@@ -183,8 +183,10 @@ def edge(variable: Any) -> Any:
 
 
 def change(variable: Any) -> Any:
-    """Whether a discrete variable has just changed."""
+    """Whether a discrete variable, or a signal of whole numbers or truth values, has just changed."""
     before = pre(variable)
+    if variable._is_whole():  # so that it can be watched, too: a signal may change between events
+        return sp.Ge(sp.Abs(variable - before), HALF)
     return sp.Ne(variable, before)
 
 
