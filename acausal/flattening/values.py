@@ -81,7 +81,7 @@ def parameter_values(layout: Layout) -> ParameterValues:
 
 def _fold_through(bindings: list[Binding], value: Numbers, folded: Flags) -> None:
     """Also fold parameters that are zero because folded ones are, whatever the others are."""
-    known = {int(i): sp.S.Zero for i in np.flatnonzero(folded)}
+    known: dict[int, Any] = {int(i): sp.S.Zero for i in np.flatnonzero(folded)}
     """What follows from folded ones alone; not all of it is zero."""
     before = -1
     while before < (before := len(known)):
@@ -92,7 +92,7 @@ def _fold_through(bindings: list[Binding], value: Numbers, folded: Flags) -> Non
     value[zero], folded[zero] = 0.0, True
 
 
-def _rest(binding: Binding, known: dict[int, sp.Expr]) -> sp.Expr:
+def _rest(binding: Binding, known: dict[int, Any]) -> Any:
     """The expression with what is known of its arguments."""
     pairs = zip(binding.symbols, binding.arguments, strict=True)
     given = {s: known[a] for s, a in pairs if a in known}

@@ -294,7 +294,8 @@ class Build:
         declared, frame = entry.declared, self.frame(entry.node)
         if declared.prefixes.outer:
             self.made[name] = inner_of(self, name, entry)
-            return
+            if not declared.prefixes.inner:
+                return
         given = [
             *self.given,
             *(g for a, n in entry.modifiers for g in given_by([a], self.frame(n))),

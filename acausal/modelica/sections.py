@@ -170,7 +170,7 @@ class Reader(Connecting):
             assert test is not None
             found = self.value(test)
             self.at = test.at
-            conditions = [self.condition(c) for c in elements(found)]
+            conditions = [self.condition(c) for c in elements(found) if c is not False]
             links.append((conditions, read(body)))
         chain: When | None = None
         for conditions, found in reversed(links):

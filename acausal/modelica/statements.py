@@ -19,7 +19,9 @@ from acausal.modeling import (
     Eq,
     Input,
     Output,
+    Previous,
     Reference,
+    Start,
     When,
     references,
 )
@@ -62,8 +64,10 @@ def _is_discrete(side: Any) -> bool:
 
 
 def initial_equations(build: Any) -> Iterator[Any]:
-    """The initial equations and algorithms of a component."""
-    yield from _read(build, "initial_equations", "initial_algorithms")
+    """The initial equations and algorithms of a component, without those of `start`."""
+    for one in _read(build, "initial_equations", "initial_algorithms"):
+        if not (isinstance(one.lhs, Previous) and (_jumps(one.rhs) or one.rhs.is_number)):
+            yield one
 
 
 def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
@@ -88,7 +92,8 @@ def check(build: Any) -> None:
     Inputs of parts that its equations give a value, as in ``block.u = 2*x``, are connected to outputs of its own.
     """
     component, node = build.component, build.component._node
-    stated, _ = [s for s in equations(build) if isinstance(s, Eq)], [*initial_equations(build)]
+    stated = [s for s in equations(build) if isinstance(s, Eq)]
+    start(component, stated, [*_read(build, "initial_equations", "initial_algorithms")])
     ends = {end for pair in node.connections for end in pair}
     symbols = [
         s for equation in stated for side in (equation.lhs, equation.rhs) for s in references(side)
@@ -100,6 +105,27 @@ def check(build: Any) -> None:
             name = re.sub(r"\W+", "_", ".".join((*route, symbol.path)))
             setattr(component, f"{name}_given", Output(unit=symbol.declaration.unit))
             component.connect(getattr(component, f"{name}_given"), symbol)
+
+
+def start(component: Component, stated: list[Eq], initial: list[Eq]) -> None:
+    """Give discrete variables the starts that follow from initial equations, through equations of two variables."""
+    values: dict[Any, float] = {
+        e.lhs: float(e.rhs) for e in initial if _jumps(e.lhs) and e.rhs.is_number
+    }
+    same = [(e.lhs, e.rhs) for e in (*stated, *initial) if _jumps(e.lhs) and _jumps(e.rhs)]
+    pairs = [*same, *((b, a) for a, b in same)]
+    while new := {a: values[b] for a, b in pairs if b in values and a not in values}:
+        values |= new
+    for side in sorted(
+        values, key=lambda s: isinstance(s, Previous)
+    ):  # what is before the start counts
+        reference = side.reference if isinstance(side, Previous) else side
+        if reference.owner is component._node:
+            component.modify(**{reference.path: Start(values[side])})
+
+
+def _jumps(side: Any) -> bool:
+    return isinstance(side, Previous) or _is_discrete(side)
 
 
 def assigned_at_events(build: Any) -> frozenset[str]:

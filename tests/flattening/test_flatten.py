@@ -318,7 +318,8 @@ class Sheet(ac.Component):
 
 
 def test_what_is_zero_whatever_the_others_are_is_folded():
-    assert "R" not in (system := ac.compile(Sheet())).parameters()
+    system = ac.compile(Sheet())
+    assert "R" not in system.parameters()
     np.testing.assert_allclose(ac.simulate(system, 1)["i"], -1)
 
 

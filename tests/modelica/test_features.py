@@ -170,3 +170,48 @@ def test_an_array_of_parameters_that_initial_equations_determine(tmp_path: Path)
     run = ac.simulate(ac.compile(ac.load(file)), 0.1, dt=0.05)
     assert [float(run[f"k[{i}]"][-1]) for i in (1, 2)] == pytest.approx([2, 5])
     assert float(run["x[2]"][-1]) == pytest.approx(3 * np.exp(-0.5), rel=1e-4)
+
+
+def test_what_discrete_variables_are_before_the_start(tmp_path: Path) -> None:
+    """A step is active from the start until half a second; a block counts how often its level changes."""
+    file = tmp_path / "Steps.mo"
+    file.write_text("""
+        package Steps
+          partial block Step
+            Boolean local, next;
+            discrete Real never(start = 3);
+          initial equation
+            pre(next) = pre(local);
+          equation
+            local = pre(next);
+            next = local and time < 0.5;
+            when false then
+              never = 4;
+            end when;
+          end Step;
+          block First
+            output Boolean active;
+            extends Step;
+          initial equation
+            active = true;
+          equation
+            active = local;
+          end First;
+          block Counter
+            Modelica.Blocks.Interfaces.IntegerInput level(start = 7, fixed = true);
+            Integer n(start = 0, fixed = true);
+          equation
+            when change(level) then
+              n = pre(n) + 1;
+            end when;
+          end Counter;
+          model All
+            First first;
+            Counter counter(level = if first.active then 1 elseif time < 0.7 then 2 else 5);
+          end All;
+        end Steps;
+    """)
+    run = ac.simulate(ac.compile(ac.load(file, "Steps.All")), 1, saveat=[0.0, 0.4, 0.6, 1.0])
+    assert run["first.active"].tolist() == [1, 1, 0, 0]
+    assert run["first.never"].tolist() == [3] * 4
+    assert (run["counter.n"] - run["counter.n"][0]).tolist() == [0, 0, 1, 2]
