@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from acausal.modelica.classes import Entry
-from acausal.modelica.values import of
 from acausal.modeling import Discrete, Input, Parameter, Reference, Variable
 
 
@@ -18,7 +17,7 @@ def inner_of(build: Any, name: str, entry: Entry) -> Any:
             found = above.member(
                 name
             )  # of one that is outer, too, what its class means by the name
-            return of(above.component, name) if known.declared.prefixes.outer else found
+            return getattr(above.component, name) if known.declared.prefixes.outer else found
         above = above.above
     raise entry.wrong(
         f"there is no 'inner {entry.declared.type.text} {name}' around this; declare it in the model"

@@ -215,3 +215,49 @@ def test_what_discrete_variables_are_before_the_start(tmp_path: Path) -> None:
     assert run["first.active"].tolist() == [1, 1, 0, 0]
     assert run["first.never"].tolist() == [3] * 4
     assert (run["counter.n"] - run["counter.n"][0]).tolist() == [0, 0, 1, 2]
+
+
+def test_what_is_inner_and_outer_passes_on_something_else(tmp_path: Path) -> None:
+    """Within a level its surroundings are twice those around it; a port that nobody connects is off."""
+    file = tmp_path / "Levels.mo"
+    file.write_text("""
+        package Levels
+          model Surroundings
+            output Boolean warm;
+            output Boolean said;
+            Real T;
+          equation
+            warm = said;
+          end Surroundings;
+          model Leaf
+            outer Surroundings s;
+            Real T = s.T;
+            discrete Real n(start = 0, fixed = true);
+          equation
+            when s.said then
+              n = pre(n) + 1;
+            end when;
+          end Leaf;
+          connector Port
+            input Boolean on;
+          end Port;
+          model Level
+            inner outer Surroundings s(T = 2*outside, warm = outside > 4 or port.on);
+            Real outside = s.T;
+            Leaf leaf;
+            Port port;
+          equation
+            if cardinality(port) == 0 then
+              port.on = false;
+            end if;
+          end Level;
+          model All
+            inner Surroundings s(T = 3 + 2*time, warm = false);
+            Leaf leaf;
+            Level level;
+          end All;
+        end Levels;
+    """)
+    run = ac.simulate(ac.compile(ac.load(file, "Levels.All")), 1, saveat=[0.0, 1.0])
+    assert [float(run[n][-1]) for n in ("leaf.T", "level.leaf.T")] == pytest.approx([5, 10])
+    assert [float(run[n][-1]) for n in ("leaf.n", "level.leaf.n")] == [0, 1]
