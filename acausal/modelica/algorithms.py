@@ -170,7 +170,11 @@ class Algorithms(Overloading):
                 self._branch(rest, local)
             self.path = path
             for name, value in first.items():
-                local[name] = self._merged(holds, value, local.get(name))
+                local[name] = self.kept(name, self._merged(holds, value, local.get(name)))
+
+    def kept(self, word: str, value: Any) -> Any:
+        """The value of a variable behind an ``if``, as what comes then shall read it."""
+        return value
 
     def _merged(self, holds: Any, value: Any, otherwise: Any) -> Any:
         if value is otherwise:

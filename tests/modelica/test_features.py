@@ -261,3 +261,30 @@ def test_what_is_inner_and_outer_passes_on_something_else(tmp_path: Path) -> Non
     run = ac.simulate(ac.compile(ac.load(file, "Levels.All")), 1, saveat=[0.0, 1.0])
     assert [float(run[n][-1]) for n in ("leaf.T", "level.leaf.T")] == pytest.approx([5, 10])
     assert [float(run[n][-1]) for n in ("leaf.n", "level.leaf.n")] == [0, 1]
+
+
+def test_an_algorithm_that_chooses_again_and_again_stays_small(tmp_path: Path) -> None:
+    """Each choice reads what the one before has made: as one expression it would have 2^16 cases."""
+    file = tmp_path / "Choices.mo"
+    file.write_text("""
+        model Choices
+          Integer n;
+        algorithm
+          n := if time < 0.5 then 0 else 3;
+          for i in 1:16 loop
+            if n == 2*i or n == 5 then
+              n := n + 2;
+            else
+              n := n + 1;
+            end if;
+          end for;
+        end Choices;
+    """)
+
+    def chosen(n: int) -> int:
+        for i in range(1, 17):
+            n += 2 if n in (2 * i, 5) else 1
+        return n
+
+    run = ac.simulate(ac.compile(ac.load(file)), 1, saveat=[0.0, 1.0])
+    assert run["n"].tolist() == [chosen(0), chosen(3)]
