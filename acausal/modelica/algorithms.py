@@ -29,7 +29,7 @@ from acausal.modelica.values import Record, each
 
 MAX_STATEMENTS = 20_000
 REFUSED = {
-    "delay": "use the block Modelica.Blocks.Nonlinear.FixedDelay",
+    "delay": "use the block Modelica.Blocks.Nonlinear.PadeDelay, an approximation",
     "spatialDistribution": "divide the pipe into volumes",
     "terminal": "use an equation of time",
     "inStream": "use connectors without stream variables",
