@@ -14,6 +14,7 @@ from acausal.events.event_formulas import Events as Events, generate_events as g
 from acausal.events.event_iteration import (
     ALL_AT_ONCE as ALL_AT_ONCE,
     COINCIDE as COINCIDE,
+    DOUBTED as DOUBTED,
     FORCED as FORCED,
     ONE_BY_ONE as ONE_BY_ONE,
     PASSES as PASSES,

@@ -33,6 +33,13 @@ FORCED = 500
 ONE_BY_ONE = 1000
 """So often conditions are changed one by one until an event counts as one without a solution."""
 
+DOUBTED = 100
+"""After so many iterations a condition stays as it is where its number is zero but for rounding.
+
+As of two ideal diodes in parallel, opposite to each other and without current. What counts as rounding grows tenfold
+with as many iterations more, from 1e-12 to 1e-7.
+"""
+
 COINCIDE = 1e-12
 """Times that differ by less, relative to their size, are the same instant."""
 
@@ -203,18 +210,20 @@ def once_more(
     initial: ArrayLike = 0.0,
 ) -> Float[Array, " n_discrete"]:
     """Discrete variables from those of the iteration before, by number ``k``; other arguments as for `iterate`."""
-    n, at = events.n_guards, before._replace(d=d)
+    n, at, k = events.n_guards, before._replace(d=d), jnp.asarray(k)
     g = guards(events, at, before)
     if events.timed.any():  # one whose time comes with the event is what it is just behind it
         behind = jnp.asarray(at.t) + COINCIDE * jnp.abs(at.t)
         there = guards(events, at._replace(t=behind), before, timed=True)
         g = jnp.where(events.timed, there, g)
-    as_forced = (jnp.abs(g) <= band) & (jnp.asarray(k) < FORCED)
-    r = jnp.where(as_forced, forced, holds(events, g).astype(d.dtype))
+    as_forced = (jnp.abs(g) <= band) & (k < FORCED)
+    rounding = jnp.where(k < DOUBTED, -1.0, 10.0 ** (jnp.minimum(k // DOUBTED, 6) - 13.0))
+    r = jnp.where(jnp.abs(g) <= rounding, d[:n], holds(events, g).astype(d.dtype))
+    r = jnp.where(as_forced, forced, r)
     r = jnp.where(events.ticks & (jnp.asarray(initial) > 0), 0, r)
     differs = r != d[:n]
     first = jnp.arange(n) == jnp.argmax(differs) if n else differs
-    r = jnp.where((jnp.asarray(k) >= ALL_AT_ONCE) & ~first, d[:n], r)
+    r = jnp.where((k >= ALL_AT_ONCE) & ~first, d[:n], r)
     return updated(events, at, before, r, initial)
 
 

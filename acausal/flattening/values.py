@@ -80,17 +80,26 @@ def parameter_values(layout: Layout) -> ParameterValues:
 
 
 def _fold_through(bindings: list[Binding], value: Numbers, folded: Flags) -> None:
-    """Also fold parameters that are zero because folded ones are."""
-    left = bindings
-    while zero := [b.target for b in left if folded[list(b.arguments)].all() and _is_zero(b)]:
-        value[zero], folded[zero] = 0.0, True
-        left = [b for b in left if not folded[b.target]]
+    """Also fold parameters that are zero because folded ones are, whatever the others are."""
+    known: dict[int, Any] = {int(i): sp.S.Zero for i in np.flatnonzero(folded)}
+    """What follows from folded ones alone; not all of it is zero."""
+    before = -1
+    while before < (before := len(known)):
+        for b in bindings:
+            if b.target not in known and (rest := _rest(b, known)).is_finite and rest.is_Number:
+                known[b.target] = rest
+    zero = [b.target for b in bindings if known.get(b.target) == 0]
+    value[zero], folded[zero] = 0.0, True
 
 
-def _is_zero(binding: Binding) -> bool:
-    """Whether the expression is zero where all its arguments are."""
-    zeros = dict.fromkeys(binding.symbols, sp.S.Zero)
-    return bool(zeros) and binding.expression.xreplace(zeros) == 0
+def _rest(binding: Binding, known: dict[int, Any]) -> Any:
+    """The expression with what is known of its arguments."""
+    pairs = zip(binding.symbols, binding.arguments, strict=True)
+    given = {s: known[a] for s, a in pairs if a in known}
+    try:
+        return binding.expression.xreplace(given) if given else sp.S.NaN
+    except TypeError:  # compares what is not finite
+        return sp.S.NaN
 
 
 def _sizes(shape: tuple[int, ...] | None) -> str:

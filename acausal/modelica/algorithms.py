@@ -29,7 +29,7 @@ from acausal.modelica.values import Record, each
 
 MAX_STATEMENTS = 20_000
 REFUSED = {
-    "delay": "use the block Modelica.Blocks.Nonlinear.FixedDelay",
+    "delay": "use the block Modelica.Blocks.Nonlinear.PadeDelay, an approximation",
     "spatialDistribution": "divide the pipe into volumes",
     "terminal": "use an equation of time",
     "inStream": "use connectors without stream variables",
@@ -170,7 +170,11 @@ class Algorithms(Overloading):
                 self._branch(rest, local)
             self.path = path
             for name, value in first.items():
-                local[name] = self._merged(holds, value, local.get(name))
+                local[name] = self.kept(name, self._merged(holds, value, local.get(name)))
+
+    def kept(self, word: str, value: Any) -> Any:
+        """The value of a variable behind an ``if``, as what comes then shall read it."""
+        return value
 
     def _merged(self, holds: Any, value: Any, otherwise: Any) -> Any:
         if value is otherwise:

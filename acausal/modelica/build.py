@@ -136,6 +136,7 @@ class Build:
         given_inwards: variables of parts that equal one of this component, and that one.
         graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
+        counted: how often connectors are connected, by owner and name; not by what `statements.check` adds.
     """
 
     def __init__(
@@ -151,6 +152,7 @@ class Build:
         self.outer: dict[Reference, Reference] = {}
         self.given_inwards: list[tuple[Reference, Reference]] = []
         self.decided: dict[str, float] = {}
+        self.counted: dict[Any, int] = {}
         self.parts_of_text: list[Model] = []
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
@@ -294,7 +296,8 @@ class Build:
         declared, frame = entry.declared, self.frame(entry.node)
         if declared.prefixes.outer:
             self.made[name] = inner_of(self, name, entry)
-            return
+            if not declared.prefixes.inner:
+                return
         given = [
             *self.given,
             *(g for a, n in entry.modifiers for g in given_by([a], self.frame(n))),

@@ -259,8 +259,11 @@ def _cardinality(self: Evaluator, call: Call) -> Any:
         parts = end.fields.values() if isinstance(end, Record) else end
         end = next(part for part in parts if is_end(part))
     wanted, node = owner_and_name(end), self.frame.build.component._node
-    pairs = [pair for n in (node, *node.ancestors()) for pair in n.connections]
-    return sum(owner_and_name(e) == wanted for pair in pairs for e in pair)
+    counted = self.frame.build.counted
+    if wanted not in counted:
+        pairs = [pair for n in (node, *node.ancestors()) for pair in n.connections]
+        counted[wanted] = sum(owner_and_name(e) == wanted for pair in pairs for e in pair)
+    return counted[wanted]
 
 
 def _assertion(self: Evaluator, call: Call) -> Any:

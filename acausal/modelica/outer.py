@@ -10,13 +10,14 @@ from acausal.modeling import Discrete, Input, Parameter, Reference, Variable
 
 def inner_of(build: Any, name: str, entry: Entry) -> Any:
     """What an ``outer`` component stands for: the ``inner`` one of that name in a model around this one."""
-    if entry.declared.prefixes.inner:
-        raise entry.wrong("'inner outer' is not supported; give one of them another name")
     above = build.above
     while above is not None:
         known = above.entries.get(name)
         if known is not None and known.declared.prefixes.inner:
-            return above.member(name)
+            found = above.member(
+                name
+            )  # of one that is outer, too, what its class means by the name
+            return getattr(above.component, name) if known.declared.prefixes.outer else found
         above = above.above
     raise entry.wrong(
         f"there is no 'inner {entry.declared.type.text} {name}' around this; declare it in the model"

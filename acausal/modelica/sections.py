@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -42,11 +45,16 @@ from acausal.modeling import (
     pre,
 )
 
+LARGE = 1000
+"""A value of so many parts, at least, is kept as a variable between two statements of an algorithm."""
+
 
 class Reader(Connecting):
     """Reads the statements of one section."""
 
     jumps: list[Reinit] | None = None
+    assigned: Mapping[str, Any] = MappingProxyType({})
+    """Variables of the component that an algorithm assigns outside of ``when``."""
 
     # -- equations ---------------------------------------------------------------------------------------
 
@@ -170,7 +178,7 @@ class Reader(Connecting):
             assert test is not None
             found = self.value(test)
             self.at = test.at
-            conditions = [self.condition(c) for c in elements(found)]
+            conditions = [self.condition(c) for c in elements(found) if c is not False]
             links.append((conditions, read(body)))
         chain: When | None = None
         for conditions, found in reversed(links):
@@ -269,6 +277,7 @@ class Reader(Connecting):
             w: each(_before, variables[w]) if w in always else variables[w] for w in variables
         }
         frame = self.frame
+        self.assigned, self.further = {w: v for w, v in variables.items() if w in always}, []
         for statement in stated:
             self.frame = Frame(frame.node, build, local, frame.events)
             self.at = statement.at
@@ -278,11 +287,30 @@ class Reader(Connecting):
                 )
             else:
                 self.execute([statement], local)
-        self.frame = frame
+        self.frame, self.assigned = frame, {}
+        yield from self.further
         for word in sorted(always & set(variables), key=list(build.names).index):
             if any(v is None for v in elements(local[word])):
                 raise self.wrong(f"the algorithm does not assign '{word}' in every case")
             yield from self.pairs(variables[word], local[word])
+
+    def kept(self, word: str, value: Any) -> Any:
+        """A large value of a discrete variable becomes a variable, so that what is made of it stays small."""
+
+        def one(variable: Any, v: Any) -> Any:
+            parts = sp.preorder_traversal(v) if isinstance(v, sp.Basic) else ()
+            if len(list(islice(parts, LARGE))) < LARGE or not _is_discrete(variable):
+                return v
+            build: Any = self.frame.build
+            name = re.sub(r"\W+", "_", f"{variable.path}_{len(self.further) + 1}")
+            if name not in vars(build.component):
+                setattr(build.component, name, Discrete(kind=variable.declaration.kind))
+                build.types[name] = build.types[word]
+            found = getattr(build.component, name)
+            self.further += self.pairs(found, v)
+            return found
+
+        return each(one, self.assigned[word], value) if word in self.assigned else value
 
     def _assigned(
         self,
@@ -304,9 +332,13 @@ class Reader(Connecting):
         return found
 
 
+def _is_discrete(variable: Any) -> bool:
+    return isinstance(variable, Reference) and isinstance(variable.declaration, Discrete)
+
+
 def _before(variable: Any) -> Any:
     """The value of a variable when an algorithm begins."""
-    return pre(variable) if isinstance(variable.declaration, Discrete) else None
+    return pre(variable) if _is_discrete(variable) else None
 
 
 def _target(statement: Eq | Reinit) -> Any:

@@ -12,6 +12,7 @@ from acausal.modelica.modifications import Bound
 from acausal.modelica.sections import Reader, collect
 from acausal.modelica.values import (
     as_array,
+    elements,
 )
 from acausal.modeling import (
     Component,
@@ -19,7 +20,9 @@ from acausal.modeling import (
     Eq,
     Input,
     Output,
+    Previous,
     Reference,
+    Start,
     When,
     references,
 )
@@ -35,11 +38,14 @@ def equations(build: Any) -> Iterator[Any]:
         stated += Reader(build.frame(build.node)).pairs(local, symbol)
     for edge in build.edges:
         stated += Reader(build.frame(build.node)).related(edge)
-    yield from _oriented(stated)
+    yield from _oriented(stated, build)
 
 
-def _oriented(stated: list[Any]) -> Iterator[Any]:
-    """The statements; an equation between two discrete variables gives the one that no other gives."""
+def _oriented(stated: list[Any], build: Any) -> Iterator[Any]:
+    """The statements; an equation between two discrete variables gives the one that no other gives, here or above."""
+    if not any(_gives_either(e) for e in stated):
+        yield from stated
+        return
     given = Counter(e.lhs for e in stated if isinstance(e, Eq) and _is_discrete(e.lhs))
     given.update(
         e.lhs
@@ -49,12 +55,20 @@ def _oriented(stated: list[Any]) -> Iterator[Any]:
         for e in link.statements
         if isinstance(e, Eq)
     )
+    component = build.component
+    while (build := build.above) is not None:
+        given.update(
+            v for p, n, _ in build.bindings if p is component for v in elements(_target(p, n))
+        )
     for one in stated:
-        both = isinstance(one, Eq) and _is_discrete(one.lhs) and _is_discrete(one.rhs)
-        if both and given[one.lhs] > 1 and not given[one.rhs]:
+        if _gives_either(one) and given[one.lhs] > 1 and not given[one.rhs]:
             given.update({one.lhs: -1, one.rhs: 1})
             one = Eq(one.rhs, one.lhs)
         yield one
+
+
+def _gives_either(one: Any) -> bool:
+    return isinstance(one, Eq) and _is_discrete(one.lhs) and _is_discrete(one.rhs)
 
 
 def _is_discrete(side: Any) -> bool:
@@ -62,8 +76,10 @@ def _is_discrete(side: Any) -> bool:
 
 
 def initial_equations(build: Any) -> Iterator[Any]:
-    """The initial equations and algorithms of a component."""
-    yield from _read(build, "initial_equations", "initial_algorithms")
+    """The initial equations and algorithms of a component, without those of `start`."""
+    for one in _read(build, "initial_equations", "initial_algorithms"):
+        if not (isinstance(one.lhs, Previous) and (_jumps(one.rhs) or one.rhs.is_number)):
+            yield one
 
 
 def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
@@ -85,21 +101,48 @@ def connect(build: Any) -> None:
 def check(build: Any) -> None:
     """Read all that a component states, so that what is wrong is refused with its place.
 
-    Inputs of parts that its equations give a value, as in ``block.u = 2*x``, are connected to outputs of its own.
+    Inputs of parts that its equations give a value, as in ``block.u = 2*x``, are connected to outputs of its own. Those
+    of its own that an equation gives a number, as nobody connects them, are connected to outputs around it.
     """
     component, node = build.component, build.component._node
-    stated, _ = [s for s in equations(build) if isinstance(s, Eq)], [*initial_equations(build)]
+    stated = [s for s in equations(build) if isinstance(s, Eq)]
+    start(component, stated, [*_read(build, "initial_equations", "initial_algorithms")])
     ends = {end for pair in node.connections for end in pair}
     symbols = [
         s for equation in stated for side in (equation.lhs, equation.rhs) for s in references(side)
     ]
+    defaults = {s.lhs for s in stated if s.rhs.is_number}
     for symbol in dict.fromkeys(symbols):
-        given = isinstance(symbol.declaration, Input) and symbol.owner is not node
-        if given and symbol not in ends:
-            route = symbol.owner.route_from(node) or ()
+        around = component if symbol.owner is not node else build.above and build.above.component
+        given = isinstance(symbol.declaration, Input) and (
+            around is component or symbol in defaults
+        )
+        if given and around and symbol not in ends:
+            route = symbol.owner.route_from(around._node) or ()
             name = re.sub(r"\W+", "_", ".".join((*route, symbol.path)))
-            setattr(component, f"{name}_given", Output(unit=symbol.declaration.unit))
-            component.connect(getattr(component, f"{name}_given"), symbol)
+            setattr(around, f"{name}_given", Output(unit=symbol.declaration.unit))
+            around.connect(getattr(around, f"{name}_given"), symbol)
+
+
+def start(component: Component, stated: list[Eq], initial: list[Eq]) -> None:
+    """Give discrete variables the starts that follow from initial equations, through equations of two variables."""
+    values: dict[Any, float] = {
+        e.lhs: float(e.rhs) for e in initial if _jumps(e.lhs) and e.rhs.is_number
+    }
+    same = [(e.lhs, e.rhs) for e in (*stated, *initial) if _jumps(e.lhs) and _jumps(e.rhs)]
+    pairs = [*same, *((b, a) for a, b in same)]
+    while new := {a: values[b] for a, b in pairs if b in values and a not in values}:
+        values |= new
+    for side in sorted(
+        values, key=lambda s: isinstance(s, Previous)
+    ):  # what is before the start counts
+        reference = side.reference if isinstance(side, Previous) else side
+        if reference.owner is component._node:
+            component.modify(**{reference.path: Start(values[side])})
+
+
+def _jumps(side: Any) -> bool:
+    return isinstance(side, Previous) or _is_discrete(side)
 
 
 def assigned_at_events(build: Any) -> frozenset[str]:
@@ -129,7 +172,11 @@ def fed_by_connections(build: Any) -> frozenset[str]:
 def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
     reader = Reader(bound.frame)
     reader.at = bound.expression.at
+    yield from reader.pairs(_target(part, path), bound.value())
+
+
+def _target(part: Component, path: str) -> Any:
+    """The variable of a part that a modifier gives a value."""
     build = part.__dict__.get("_build")
     member = build.made.get(path) if build is not None and "." in path else None
-    target = as_array(attribute(part, path)) if member is None else member
-    yield from reader.pairs(target, bound.value())
+    return as_array(attribute(part, path)) if member is None else member

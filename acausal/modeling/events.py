@@ -82,11 +82,25 @@ class Watched(sp.Function):
 
 def literal(expression: Any) -> Any:
     """The same without events: case distinctions are evaluated as they stand."""
+    return _literal(expression, {}) if expression.has(Watched, Floored) else expression
 
-    def cases(condition: Any, value: Any, otherwise: Any, _: Any) -> Any:
-        return _cases(condition, value, otherwise)
 
-    return expression.replace(Watched, cases).replace(Floored, lambda number, _: floor(number))
+def _literal(expression: Any, known: dict[Any, Any]) -> Any:
+    """The same, once for each part of it: what an algorithm assigns may occur in it thousands of times."""
+    if not expression.args:
+        return expression
+    if expression not in known:
+        args = [_literal(a, known) for a in expression.args]
+        if isinstance(expression, Watched):
+            found = _cases(*args[:3])
+        elif isinstance(expression, Floored):
+            found = floor(args[0])
+        elif all(a is b for a, b in zip(args, expression.args, strict=True)):
+            found = expression
+        else:
+            found = expression.func(*args)
+        known[expression] = found
+    return known[expression]
 
 
 def condition(value: Any, where: str) -> Boolean:
@@ -183,8 +197,10 @@ def edge(variable: Any) -> Any:
 
 
 def change(variable: Any) -> Any:
-    """Whether a discrete variable has just changed."""
+    """Whether a discrete variable, or a signal of whole numbers or truth values, has just changed."""
     before = pre(variable)
+    if variable._is_whole():  # so that it can be watched, too: a signal may change between events
+        return sp.Ge(sp.Abs(variable - before), HALF)
     return sp.Ne(variable, before)
 
 

@@ -293,6 +293,36 @@ def test_what_folded_parameters_make_zero_is_folded():
     assert names & set(ac.compile(Bar(L=0.0)).parameters()) == {"L"}
 
 
+class Sheet(ac.Component):
+    """A resistance that is given, or else follows from what has no use then; a current through none has no equation."""
+
+    given, given_is, squares, sheet = (
+        ac.Parameter(0.0),
+        ac.Parameter(),
+        ac.Parameter(1.0),
+        ac.Parameter(0.0),
+    )
+    R = ac.Parameter()
+    i, x, y = ac.Variable(), ac.Variable(), ac.Variable()
+
+    def __init__(self, **modifiers):
+        super().__init__(**modifiers)
+        other = self.squares * self.sheet
+        is_given = ac.where(self.given > -1e40, 1, 0)
+        self.modify(given_is=is_given, R=ac.where(self.given_is > 0.5, self.given, other))
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), -self.i)
+        yield ac.Eq(self.y, ac.time)
+        yield ac.Eq(self.i * self.R, self.x - self.y)
+
+
+def test_what_is_zero_whatever_the_others_are_is_folded():
+    system = ac.compile(Sheet())
+    assert "R" not in system.parameters()
+    np.testing.assert_allclose(ac.simulate(system, 1)["i"], -1)
+
+
 @pytest.mark.parametrize(
     ("make", "told"),
     [

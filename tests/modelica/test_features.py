@@ -170,3 +170,121 @@ def test_an_array_of_parameters_that_initial_equations_determine(tmp_path: Path)
     run = ac.simulate(ac.compile(ac.load(file)), 0.1, dt=0.05)
     assert [float(run[f"k[{i}]"][-1]) for i in (1, 2)] == pytest.approx([2, 5])
     assert float(run["x[2]"][-1]) == pytest.approx(3 * np.exp(-0.5), rel=1e-4)
+
+
+def test_what_discrete_variables_are_before_the_start(tmp_path: Path) -> None:
+    """A step is active from the start until half a second; a block counts how often its level changes."""
+    file = tmp_path / "Steps.mo"
+    file.write_text("""
+        package Steps
+          partial block Step
+            Boolean local, next;
+            discrete Real never(start = 3);
+          initial equation
+            pre(next) = pre(local);
+          equation
+            local = pre(next);
+            next = local and time < 0.5;
+            when false then
+              never = 4;
+            end when;
+          end Step;
+          block First
+            output Boolean active;
+            extends Step;
+          initial equation
+            active = true;
+          equation
+            active = local;
+          end First;
+          block Counter
+            Modelica.Blocks.Interfaces.IntegerInput level(start = 7, fixed = true);
+            Integer n(start = 0, fixed = true);
+          equation
+            when change(level) then
+              n = pre(n) + 1;
+            end when;
+          end Counter;
+          model All
+            First first;
+            Counter counter(level = if first.active then 1 elseif time < 0.7 then 2 else 5);
+          end All;
+        end Steps;
+    """)
+    run = ac.simulate(ac.compile(ac.load(file, "Steps.All")), 1, saveat=[0.0, 0.4, 0.6, 1.0])
+    assert run["first.active"].tolist() == [1, 1, 0, 0]
+    assert run["first.never"].tolist() == [3] * 4
+    assert (run["counter.n"] - run["counter.n"][0]).tolist() == [0, 0, 1, 2]
+
+
+def test_what_is_inner_and_outer_passes_on_something_else(tmp_path: Path) -> None:
+    """Within a level its surroundings are twice those around it; a port that nobody connects is off."""
+    file = tmp_path / "Levels.mo"
+    file.write_text("""
+        package Levels
+          model Surroundings
+            output Boolean warm;
+            output Boolean said;
+            Real T;
+          equation
+            warm = said;
+          end Surroundings;
+          model Leaf
+            outer Surroundings s;
+            Real T = s.T;
+            discrete Real n(start = 0, fixed = true);
+          equation
+            when s.said then
+              n = pre(n) + 1;
+            end when;
+          end Leaf;
+          connector Port
+            input Boolean on;
+          end Port;
+          model Level
+            inner outer Surroundings s(T = 2*outside, warm = outside > 4 or port.on);
+            Real outside = s.T;
+            Leaf leaf;
+            Port port;
+          equation
+            if cardinality(port) == 0 then
+              port.on = false;
+            end if;
+          end Level;
+          model All
+            inner Surroundings s(T = 3 + 2*time, warm = false);
+            Leaf leaf;
+            Level level;
+          end All;
+        end Levels;
+    """)
+    run = ac.simulate(ac.compile(ac.load(file, "Levels.All")), 1, saveat=[0.0, 1.0])
+    assert [float(run[n][-1]) for n in ("leaf.T", "level.leaf.T")] == pytest.approx([5, 10])
+    assert [float(run[n][-1]) for n in ("leaf.n", "level.leaf.n")] == [0, 1]
+
+
+def test_an_algorithm_that_chooses_again_and_again_stays_small(tmp_path: Path) -> None:
+    """Each choice reads what the one before has made: as one expression it would have 2^16 cases."""
+    file = tmp_path / "Choices.mo"
+    file.write_text("""
+        model Choices
+          Integer n;
+        algorithm
+          n := if time < 0.5 then 0 else 3;
+          for i in 1:16 loop
+            if n == 2*i or n == 5 then
+              n := n + 2;
+            else
+              n := n + 1;
+            end if;
+          end for;
+        end Choices;
+    """)
+
+    def chosen(n: int) -> int:
+        for i in range(1, 17):
+            n += 2 if n in (2 * i, 5) else 1
+        return n
+
+    run = ac.simulate(ac.compile(ac.load(file)), 1, saveat=[0.0, 1.0])
+    assert run["n"].tolist() == [chosen(0), chosen(3)]

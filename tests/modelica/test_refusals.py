@@ -66,7 +66,6 @@ WRONG = {
     "connector C Real p; flow Real f; end C; model M C c; parameter Integer n=cardinality(c); end M;":
     "stands in equations only",
     "model M outer Real x; end M;": "no 'inner Real x' around this; declare it in the model",
-    "model A inner outer Real x; end A; model M inner Real x=1; A a; end M;": "'inner outer' is not supported",
     "connector C parameter Integer n=1; Real p[n]; flow Real f; stream Real h; end C; model M C c; end M;":
     "a stream variable",
     "connector C Boolean b; Real p; flow Real f; end C; model M C c; end M;":

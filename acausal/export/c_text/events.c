@@ -18,9 +18,11 @@ static void copy(const real *from, real *to, int n) {
 /* Discrete variables that agree with all values, from m->x, m->d and those before; 0 if there are none.
    Conditions whose time comes with the event are what they are just behind it, those within m->e.band of zero become
    what m->e.forced says. At first all that disagree change at once, later
-   the first of them alone. */
+   the first of them alone, and what is zero but for rounding stays. */
 static int iterate(Model *m, const real t, const real *u, const real initial) {
     for (int k = 0; k < ALL_AT_ONCE + ONE_BY_ONE; k++) {
+        const int tens = k / DOUBTED < 6 ? k / DOUBTED : 6;
+        const real rounding = tens ? pow(R(10.0), (real)(tens - 13)) : (real)-1;
         int others = 1;
         const real behind = t + COINCIDE * fabs(t);
         if (ANY_TIMED) conditions(m, behind, m->x, u, m->e.x_before, m->e.d_before, m->e.holds);
@@ -28,6 +30,7 @@ static int iterate(Model *m, const real t, const real *u, const real initial) {
         for (int i = 0; i < GUARDS; i++) {
             const real g = timed[i] ? m->e.holds[i] : m->e.number[i];
             int holds = strict[i] ? g > 0 : g >= 0;
+            if (fabs(g) <= rounding) holds = m->d[i] > R(0.5);
             if (k < FORCED && fabs(g) <= m->e.band[i]) holds = m->e.forced[i];
             if (ticks[i] && initial > 0) holds = 0;
             m->e.holds[i] = (real)holds;

@@ -15,6 +15,7 @@ from acausal.events import (
     BAND,
     CLOSE,
     COINCIDE,
+    DOUBTED,
     FORCED,
     ONE_BY_ONE,
     PASSES,
@@ -89,6 +90,7 @@ def constants() -> Iterator[str]:
         "CHATTERING": CHATTERING,
         "PASSES": PASSES,
         "ALL_AT_ONCE": ALL_AT_ONCE,
+        "DOUBTED": DOUBTED,
         "FORCED": FORCED,
         "ONE_BY_ONE": ONE_BY_ONE,
     }

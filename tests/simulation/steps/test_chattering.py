@@ -94,3 +94,23 @@ def test_a_state_that_is_set_beyond_its_threshold_goes_on(level: ac.System) -> N
 @pytest.fixture(scope="module")
 def level() -> ac.System:
     return ac.compile(Level(to=0.0))
+
+
+class Doubted(ac.Component):
+    """A switch of which rounding says in either position that it should be in the other, for an instant."""
+
+    rounding = ac.Parameter()
+    s, x, off = ac.Variable(), ac.Variable(), ac.Discrete(kind="bool")
+
+    def equations(self) -> Any:
+        late = ac.time - 1 - ac.where(self.off > 0.5, 0.0, self.rounding)
+        yield ac.Eq(self.s, ac.where(ac.time < 1, 1, late, events=True))
+        yield ac.Eq(self.off, self.s < 0)
+        yield ac.Eq(ac.der(self.x), 1 - self.off)
+
+
+def test_a_circle_of_rounding_ends_and_one_of_numbers_does_not() -> None:
+    system = ac.compile(Doubted(rounding=1e-13))
+    np.testing.assert_allclose(ac.simulate(system, 2)["x"][-1], 2, atol=1e-6)
+    with pytest.raises(ac.SimulationError, match="without end"):
+        ac.simulate(system, 2, params={"rounding": 1e-6})
