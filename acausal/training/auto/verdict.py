@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from acausal.errors import listing
 from acausal.simulation import EXPLICIT
 from acausal.training.auto.step_choice import allowed_error, difference
 from acausal.training.objective.losses import LOSSES, noise_loss
@@ -81,6 +82,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"Its steps err by {100 * fit.step_error / level:.2g} % of the targets: take a smaller dt."
         )
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
+    if fit.without_constant:
+        others.append(_constants(fit))
     if fit.not_laws:
         names = ", ".join(fit.not_laws)
         others.append(
@@ -101,6 +104,21 @@ def _left(fit: TrainedModel) -> Iterator[str]:
         elif each.bound < 1 and not each.is_white:
             largest = float(np.max(np.abs(each.own)))
             yield f"The residuals of {each.target} are not white, up to a correlation of {largest:.2g}."
+
+
+def _constants(fit: TrainedModel) -> str:
+    """What would determine the constants that nothing determines."""
+    missing = np.isnan(np.asarray(fit.problem.first_states.given))
+    unknown = [n for n, column in zip(fit.system.states, missing.T, strict=True) if column.any()]
+    remedy = (
+        f"say where {listing(unknown)} starts (x0=...)"
+        if unknown
+        else "say which of several laws vanishes at zero (zero_crossing=...)"
+    )
+    return (
+        f"No record determines the constant of {listing(fit.without_constant)}: it is taken as zero at zero. "
+        f"To find it, {remedy}."
+    )
 
 
 def _ranges(fit: TrainedModel) -> Iterator[str]:
