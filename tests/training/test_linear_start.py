@@ -75,12 +75,15 @@ def test_laws_that_act_only_together_are_found_together() -> None:
 
 def test_a_constant_that_nothing_determines_is_left_out() -> None:
     """The current of a coil whose start is not measured takes any constant of the current beside it."""
-    circuit = Wired(
-        [("source.p", "resistor.p"), ("resistor.n", "coil.p", "capacitor.p", "beside.p"),
-         ("coil.n", "capacitor.n", "beside.n", "source.n", "ground.p")],
-        source=el.SignalVoltage(), resistor=el.Resistor(R=100.0), coil=el.Inductor(L=0.1),
-        capacitor=el.Capacitor(C=1e-5), beside=element(), ground=el.Ground(),
-    )  # fmt: skip
+
+    def circuit(coil: ac.Component) -> ac.Component:
+        return Wired(
+            [("source.p", "resistor.p"), ("resistor.n", "coil.p", "capacitor.p", "beside.p"),
+             ("coil.n", "capacitor.n", "beside.n", "source.n", "ground.p")],
+            source=el.SignalVoltage(), resistor=el.Resistor(R=100.0), coil=coil, capacitor=el.Capacitor(C=1e-5),
+            beside=element(), ground=el.Ground(),
+        )  # fmt: skip
+
     fine = np.linspace(0.0, T[-1], 200 * (len(T) - 1) + 1)
     drive, x = np.interp(fine, T, VOLTS), np.zeros((len(fine), 2))
     for k, h in enumerate(np.diff(fine)):  # Euler
@@ -89,14 +92,16 @@ def test_a_constant_that_nothing_determines_is_left_out() -> None:
     signals = {"source.v": VOLTS, "capacitor.v": x[::200, 0], "coil.i": x[::200, 1]}
     scales = {"beside.net": Scales((0.0,), (1.0,), 5e-3)}
 
-    def kept(*measured: str) -> LinearStart:
+    def kept(*measured: str, i: float = 0.0) -> LinearStart:
         names = ("source.v", "capacitor.v", *measured)
-        start = start_of(problem_of(circuit, "capacitor.v", **{n: signals[n] for n in names}))
+        learner = circuit(el.Inductor(L=0.1, i=ac.Start(i)))
+        start = start_of(problem_of(learner, "capacitor.v", **{n: signals[n] for n in names}))
         return with_constants_at_zero(start, {"beside.net": linear_shape(Law()(0))}, scales)
 
     assert kept("coil.i").loose == ()
     unknown = kept()
     assert unknown.loose == ("beside.net",)
+    assert kept(i=0.1).loose == ()  # it would have to start many times its range away
     law = unknown.laws["beside.net"]
     assert law.offset == 0.0
     assert law.slope[0] == pytest.approx(5e-3, rel=0.02)
@@ -154,4 +159,5 @@ def test_a_relay_is_followed_from_the_start_for_ever_longer() -> None:
     titles = ["first 25 samples", "first 50 samples", "whole record"]
     assert [stage.title for stage in planned] == titles
     *_, whole = segments(problem, planned, none)
+    assert whole.stage.gain == pytest.approx(2e-3)
     assert whole.epochs > 10 * whole.evaluate_every  # it goes on for as long as it gains something

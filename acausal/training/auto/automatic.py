@@ -54,8 +54,9 @@ WINDOWS = 100
 LONGER = 5
 """So many times the updates of `UPDATES` over whole records, as long as they gain something."""
 
-GAIN = 2e-3
-"""A stage over whole records ends when its loss has not fallen by this part since the last evaluation."""
+GAIN, NATS = 2e-3, 0.5
+"""A stage over whole records ends when its loss has not fallen by this part since the last evaluation, or by less where
+so small a part raises the logarithm of the likelihood of all samples by more than this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -290,7 +291,8 @@ def _stages(
     epochs = LONGER * UPDATES[kind] if options.epochs is None else options.updates[0]
     enough = -np.inf if noise is None else GOOD * noise
     every = None if options.epochs is not None else UPDATES[kind] // EVALUATIONS
-    whole = Stage(kind, epochs, gain=GAIN, every=every, title="whole record")
+    gain = min(GAIN, NATS / float(np.sum(np.asarray(problem.records.weight) > 0)))
+    whole = Stage(kind, epochs, gain=gain, every=every, title="whole record")
     if _begins_anywhere(problem):
         lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]
         part = Stage("sequences", WINDOWS, onward=True, descent=True)

@@ -43,8 +43,9 @@ JOINT = 64
 ALIKE = 1e-4
 """Points whose losses differ by less than this part are taken as one: a very small law acts as none."""
 
-LOOSE, LITTLE = 1.0, 0.01
-"""A constant is loose if its standard deviation is more than so much of its law, and the loss rises by less without."""
+LOOSE, LITTLE, LIKELY = 1.0, 0.01, 0.5
+"""A constant is loose if its standard deviation is more than so much of its law, if the loss rises by less than this
+part without it, and if the starts and parameters that go with it are as likely: within one standard deviation."""
 
 UNSEEN = 1e-12
 """Curvature, relative to that of each number alone, below which the loss is flat apart from rounding."""
@@ -137,8 +138,8 @@ def with_constants_at_zero(
     """The same start with laws that vanish at zero, where neither records nor what is known of starts tell a constant.
 
     A current through a coil whose start is not measured does for a constant of the current beside it, and a force of
-    one law for that of another one. So the constant is known less well than the law is large, and the loss hardly
-    rises without it.
+    one law for that of another one. So the constant is known less well than the law is large, and without it the loss
+    and the starts are as good as with it.
 
     Arguments:
         start: from `linear_start`. shapes: as there. scales: of the laws, by network.
@@ -158,10 +159,10 @@ def with_constants_at_zero(
         point[trial] = 0.0
         found = _Points(objective, len(point))
         point, loss, hessian = _gauss_newton(found, [point], rising, trial)
-        if loss < (1 + LITTLE) * start.loss:
-            held, loose = trial, [*loose, name]
-            again = _linear(objective, shapes, point, loss, hessian)
-            start = replace(again, title=start.title)
+        again = replace(_linear(objective, shapes, point, loss, hessian), title=start.title)
+        nats, rise = _nats(again) - _nats(start), loss / start.loss - 1
+        if nats < LIKELY and rise < LITTLE:
+            held, loose, start = trial, [*loose, name], again
     return replace(start, loose=tuple(n for n in shapes if n in loose))
 
 
@@ -172,15 +173,25 @@ def _has_constant(shape: Shape) -> bool:
 
 def _covariance(start: LinearStart, held: Sequence[int]) -> np.ndarray:
     """Of all that is trained, as the linear laws have it, with what is left as noise; zero for what is held."""
-    count = int(np.sum(np.asarray(start.problem.records.weight) > 0))
     free = np.setdiff1d(np.arange(len(start.hessian)), held)
     hessian = start.hessian[np.ix_(free, free)]
     unit = 1 / np.sqrt(np.maximum(np.diag(hessian), 1e-300))
     curvatures, axes = np.linalg.eigh(hessian * np.outer(unit, unit))
     inverse = axes / np.maximum(curvatures, UNSEEN) @ axes.T  # large where nothing is known
     found = np.zeros_like(start.hessian)
-    found[np.ix_(free, free)] = start.loss / count * inverse * np.outer(unit, unit)
+    found[np.ix_(free, free)] = (
+        start.loss / _samples(start.problem) * inverse * np.outer(unit, unit)
+    )
     return found
+
+
+def _nats(start: LinearStart) -> float:
+    """How unlikely is what is found, by what is known without data."""
+    return _samples(start.problem) * float(start.problem.log_prior(start.trainable))
+
+
+def _samples(problem: Problem) -> int:
+    return int(np.sum(np.asarray(problem.records.weight) > 0))
 
 
 def _deviation(
