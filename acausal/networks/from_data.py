@@ -50,6 +50,7 @@ class Shape(NamedTuple):
         through_zero: whether it must vanish at zero.
         energy: whether the network is an energy, whose derivative is the law.
         divides: whether the model is likely to divide by the slope, which has a start of its own.
+        positive: whether it must not be negative; then it is a constant.
     """
 
     inputs: int
@@ -58,6 +59,7 @@ class Shape(NamedTuple):
     through_zero: bool
     energy: bool
     divides: bool
+    positive: bool = False
 
 
 def lacks_scales(network: object) -> bool:
@@ -74,6 +76,8 @@ def linear_shape(network: Any) -> Shape:
     while not hasattr(inner, "in_size"):
         inner = inner.net
     every = int(inner.in_size)
+    if "positive" in promised:
+        return Shape(0, every, False, False, False, False, positive=True)
     inputs = network.inputs if energy else (1 if zero or rising else every)
     return Shape(inputs, every, rising, zero, energy, _own_start(network) is not None)
 
@@ -104,6 +108,8 @@ def with_scales(
     output = scales.output if "output_scale" in open_ else network.output_scale
     if shape.divides and "output_scale" in open_:
         output = max(abs(law.slope[0]) * reach[0], 1e-300)
+    if shape.positive and "output_scale" in open_:
+        output = max(law.offset, LEAST * scales.output)
     slope = [s * r / output for s, r in zip(law.slope, reach, strict=False)]
     if shape.energy:
         slope = [s * r / reach[0] for s, r in zip(slope, reach, strict=False)]
@@ -159,7 +165,7 @@ def _(network: Any, settings: Mapping[str, str]) -> Any:
 
 def _beside(net: Any, shape: Shape, slope: list[float], offset: float) -> Any:
     """The network beside a linear law, in numbers about one."""
-    if shape.divides:
+    if shape.divides or shape.positive:
         return net
     if shape.rising:
         start = start_at(max(slope[0], LEAST))

@@ -7,12 +7,20 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import electrical as el, neural, thermal, translational as tl
+from acausal.components import (
+    electrical as el,
+    neural,
+    rotational as rot,
+    thermal,
+    translational as tl,
+)
 from acausal.networks import (
     Affine,
     Law,
     OffsetCorrected,
     Scales,
+    kept_promises,
+    lacks_scales,
     linear_shape,
     networks,
     with_scales,
@@ -161,3 +169,24 @@ def test_a_relay_is_followed_from_the_start_for_ever_longer() -> None:
     *_, whole = segments(problem, planned, none)
     assert whole.stage.gain == pytest.approx(2e-3)
     assert whole.epochs > 10 * whole.evaluate_every  # it goes on for as long as it gains something
+
+
+def test_a_positive_law_begins_at_a_constant(tmp_path: Path) -> None:
+    """Friction that locks has the sign of the speed: a motor's, in a newton millimetre, not in newton metres."""
+    shaft = Wired(
+        [("drive.flange", "inertia.flange_a"), ("inertia.flange_b", "friction.flange_a")],
+        drive=rot.Torque(), inertia=rot.Inertia(J=1e-6), friction=neural.BearingFriction(width=4, depth=1),
+    )  # fmt: skip
+    system = ac.compile(shaft)
+    own = system.parameters()["friction.net"]
+    assert lacks_scales(own)
+    shape = linear_shape(own)
+    assert shape.positive
+    assert linear_module(shape, Affine((), 1e-3))(3.0) == pytest.approx(1e-3)
+    net = with_scales(own, Scales((0.0,), (200.0,), 1.0), Affine((), 1e-3))
+    assert "positive" in kept_promises(net)
+    values = [float(net(w)) for w in (0.0, 100.0, 200.0)]
+    assert values == pytest.approx([0.7e-3] * 3, abs=0.5e-3)
+    ac.save_params({**system.parameters(), "friction.net": net}, tmp_path / "p.safetensors")
+    loaded = ac.load_params(tmp_path / "p.safetensors", system)["friction.net"]
+    assert [float(loaded(w)) for w in (0.0, 100.0, 200.0)] == values

@@ -168,7 +168,8 @@ def with_constants_at_zero(
 
 def _has_constant(shape: Shape) -> bool:
     """Whether a law has a constant that can be subtracted from it."""
-    return not shape.through_zero and not shape.energy and shape.every == 1
+    open_ = not shape.through_zero and not shape.energy and not shape.positive
+    return open_ and shape.every == 1
 
 
 def _covariance(start: LinearStart, held: Sequence[int]) -> np.ndarray:
@@ -249,14 +250,16 @@ def _law(point: np.ndarray, places: Sequence[int], shape: Shape) -> Affine:
 
 
 def _rising(places: dict[str, list[int]], shapes: dict[str, Shape]) -> list[int]:
-    return [k for n, shape in shapes.items() if shape.rising for k in places[n][: shape.inputs]]
+    """Places of what must not be negative: slopes of laws that rise, and constants of positive ones."""
+    slopes = [k for n, shape in shapes.items() if shape.rising for k in places[n][: shape.inputs]]
+    return slopes + [places[n][-1] for n, shape in shapes.items() if shape.positive]
 
 
 def _decades(base: np.ndarray, places: Sequence[int], shape: Shape) -> list[np.ndarray]:
     """Points that differ from another one by one slope, or the offset, of one law."""
     points: list[np.ndarray] = [base]
     for i, place in enumerate(places):
-        signs = (1.0,) if shape.rising and i < shape.inputs else (1.0, -1.0)
+        signs = (1.0,) if shape.positive or (shape.rising and i < shape.inputs) else (1.0, -1.0)
         for value in itertools.product(SIZES, signs):
             point = base.copy()
             point[place] = value[0] * value[1]
