@@ -164,7 +164,7 @@ def test_a_relay_is_followed_from_the_start_for_ever_longer() -> None:
     assert problem.records.x is not None
     none = FitOptions()
     planned = _stages(problem, 101, 25, problem.params, problem.networks, False, None, none)
-    titles = ["first 25 samples", "first 50 samples", "whole record"]
+    titles = ["first 25 samples", "first 50 samples", "whole record", "whole record, longer"]
     assert [stage.title for stage in planned] == titles
     *_, whole = segments(problem, planned, none)
     assert whole.stage.gain == pytest.approx(2e-3)

@@ -51,8 +51,8 @@ FEW = 60
 WINDOWS = 100
 """Updates over windows."""
 
-LONGER = 5
-"""So many times the updates of `UPDATES` over whole records, as long as they gain something."""
+LONGER = 4
+"""So many times the updates of `UPDATES` more over whole records, above the noise, for as long as they gain something."""
 
 GAIN, NATS = 2e-3, 0.5
 """A stage over whole records ends when its loss has not fallen by this part since the last evaluation, or by less where
@@ -288,11 +288,13 @@ def _stages(
     count = sum(leaf.size for leaf in leaves) + len(problem.modifiers.names)
     few = count <= FEW
     kind = "gauss_newton" if few else "whole_record"
-    epochs = LONGER * UPDATES[kind] if options.epochs is None else options.updates[0]
+    usual = options.epochs is None
+    epochs = UPDATES[kind] if usual else options.updates[0]
     enough = -np.inf if noise is None else GOOD * noise
-    every = None if options.epochs is not None else UPDATES[kind] // EVALUATIONS
     gain = min(GAIN, NATS / float(np.sum(np.asarray(problem.records.weight) > 0)))
-    whole = Stage(kind, epochs, gain=gain, every=every, title="whole record")
+    whole = Stage(kind, epochs, gain=gain, title="whole record")
+    more = whole._replace(epochs=LONGER * epochs, every=epochs // EVALUATIONS, above=enough)
+    ends = (whole, more._replace(title="whole record, longer")) if usual else (whole,)
     if _begins_anywhere(problem):
         lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]
         part = Stage("sequences", WINDOWS, onward=True, descent=True)
@@ -302,7 +304,7 @@ def _stages(
         lengths = [n for k in range(rows.bit_length()) if (n := begun << k) < 0.7 * rows]
         windows = [part._replace(rows=n, title=f"first {n} samples") for n in lengths]
     if not explains:
-        return (*windows, whole)
+        return (*windows, *ends)
     if noise is None or not names:
         return (whole,)
-    return (whole, *(stage._replace(above=enough) for stage in (*windows, whole)))
+    return (*ends, *(stage._replace(above=enough) for stage in (*windows, *ends)))
