@@ -52,7 +52,7 @@ WINDOWS = 100
 """Updates over windows."""
 
 LONGER = 4
-"""So many times the updates of `UPDATES` more over whole records, above the noise, for as long as they gain something."""
+"""So many times the updates of `UPDATES` more over whole records, above the noise and while they gain something."""
 
 GAIN, NATS = 2e-3, 0.5
 """A stage over whole records ends when its loss has not fallen by this part since the last evaluation, or by less where
