@@ -13,7 +13,7 @@ from jaxtyping import Array
 from acausal.data import like_saved
 from acausal.networks.energy_parts import BesideQuadratic, WithMinCurvature
 from acausal.networks.extrapolation import Continued, ContinuedEnergy
-from acausal.networks.law_parts import BesideLinear, WithMinSlope, start_at
+from acausal.networks.law_parts import BesideLinear, OffsetCorrected, WithMinSlope, start_at
 from acausal.networks.mlp import MLP
 from acausal.networks.monotone_and_convex import Monotone
 from acausal.networks.promises import kept_promises
@@ -50,6 +50,7 @@ class Shape(NamedTuple):
         through_zero: whether it must vanish at zero.
         energy: whether the network is an energy, whose derivative is the law.
         divides: whether the model is likely to divide by the slope, which has a start of its own.
+        positive: whether it must not be negative; then it is a constant.
     """
 
     inputs: int
@@ -58,6 +59,7 @@ class Shape(NamedTuple):
     through_zero: bool
     energy: bool
     divides: bool
+    positive: bool = False
 
 
 def lacks_scales(network: object) -> bool:
@@ -74,18 +76,27 @@ def linear_shape(network: Any) -> Shape:
     while not hasattr(inner, "in_size"):
         inner = inner.net
     every = int(inner.in_size)
+    if "positive" in promised:
+        return Shape(0, every, False, False, False, False, positive=True)
     inputs = network.inputs if energy else (1 if zero or rising else every)
     return Shape(inputs, every, rising, zero, energy, _own_start(network) is not None)
 
 
-def with_scales(network: Any, scales: Scales, law: Affine) -> Scaled | EnergyLaw:
+def with_scales(
+    network: Any, scales: Scales, law: Affine, *, without_constant: bool = False
+) -> Scaled | EnergyLaw | OffsetCorrected:
     """A network that lacks scales, with scales and beside a linear law; scales that it has stay as they are.
 
     Arguments:
         network: one of which `lacks_scales` is true; its weights stay.
         scales: of its arguments and results.
         law: the linear law.
+        without_constant: whether the law's value at zero is subtracted from it, for one of one input.
     """
+    if without_constant:
+        around = tuple(abs(c) + r for c, r in zip(scales.centre, scales.reach, strict=True))
+        zero = (0.0,) * len(around)
+        return OffsetCorrected(with_scales(network, Scales(zero, around, scales.output), law))
     shape, open_ = linear_shape(network), network.left_open
     centred = not (shape.through_zero or shape.energy or "input_scale" not in open_)
     centre = scales.centre if centred else (0.0,) * shape.every
@@ -97,6 +108,8 @@ def with_scales(network: Any, scales: Scales, law: Affine) -> Scaled | EnergyLaw
     output = scales.output if "output_scale" in open_ else network.output_scale
     if shape.divides and "output_scale" in open_:
         output = max(abs(law.slope[0]) * reach[0], 1e-300)
+    if shape.positive and "output_scale" in open_:
+        output = max(law.offset, LEAST * scales.output)
     slope = [s * r / output for s, r in zip(law.slope, reach, strict=False)]
     if shape.energy:
         slope = [s * r / reach[0] for s, r in zip(slope, reach, strict=False)]
@@ -129,7 +142,12 @@ def _(network: Any, settings: Mapping[str, str]) -> Any:
         network: the model's own.
         settings: of the saved network, as texts by field.
     """
-    if not lacks_scales(network) or settings.get("left_open") != "()":
+    if not lacks_scales(network):
+        return network
+    if "left_open" not in settings and "net.left_open" in settings:
+        inner = {name.removeprefix("net."): value for name, value in settings.items()}
+        return OffsetCorrected(like_saved(network, inner))
+    if settings.get("left_open") != "()":
         return network
     known = ("input_scale", "output_scale", "energy_scale", "centre")
     values = {name: ast.literal_eval(settings[name]) for name in known if name in settings}
@@ -147,7 +165,7 @@ def _(network: Any, settings: Mapping[str, str]) -> Any:
 
 def _beside(net: Any, shape: Shape, slope: list[float], offset: float) -> Any:
     """The network beside a linear law, in numbers about one."""
-    if shape.divides:
+    if shape.divides or shape.positive:
         return net
     if shape.rising:
         start = start_at(max(slope[0], LEAST))

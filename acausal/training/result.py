@@ -70,6 +70,8 @@ class Fit(TrainedModel):
         step_error: how much twice as many steps change the predictions, relative to the targets' deviations; measured
             with ``strategy="auto"`` and fixed steps.
         not_laws: networks of which ``strategy="auto"`` knew no scales: modules of your own.
+        without_constant: networks that ``strategy="auto"`` made vanish at zero, because nothing in the records
+            determines their constant.
     """
 
     @cached_property
@@ -271,6 +273,7 @@ def result(
     stages: tuple[StageResult, ...] = (),
     step_error: float | None = None,
     not_laws: tuple[str, ...] = (),
+    without_constant: tuple[str, ...] = (),
 ) -> Fit:
     """The result of a training; arguments as the attributes of `Fit`."""
     best, history = trained.best, trained.history
@@ -303,4 +306,5 @@ def result(
         stages=stages,
         step_error=step_error,
         not_laws=not_laws,
+        without_constant=without_constant,
     )

@@ -50,6 +50,7 @@ class Stage(NamedTuple):
         above: it is left out where the loss over the whole record is not above.
         onward: whether the next part goes on from its end, and not from the best over the whole record.
         gain: it ends when an evaluation is not better by this part than the one before.
+        every: updates between two evaluations, where the options do not say; ``None`` for a tenth of its updates.
     """
 
     kind: str
@@ -60,6 +61,7 @@ class Stage(NamedTuple):
     above: float = -math.inf
     onward: bool = False
     gain: float = 0.0
+    every: int | None = None
 
 
 class Segment(NamedTuple):
@@ -155,7 +157,7 @@ def _segment(problem: Problem, stage: Stage, options: FitOptions) -> Segment:
     trainer = Trainer(optax.with_extra_args_support(chosen), limit, Problem.changes, kind.evaluate)
     every = options.evaluate_every
     if every is None:
-        every = max(1, epochs // EVALUATIONS)
+        every = stage.every or max(1, epochs // EVALUATIONS)
     return Segment(stage, _objective(stage, problem), trainer, epochs, every, options.patience)
 
 
@@ -180,15 +182,15 @@ class StageResult(NamedTuple):
 
 
 def stage_results(
-    history: History, segments: Sequence[Segment], linear: float | None
+    history: History, segments: Sequence[Segment], linear: StageResult | None
 ) -> tuple[StageResult, ...]:
     """The stages that a training has gone through.
 
     Arguments:
         history, segments: of the training.
-        linear: the loss of the linear laws that it started from, if there are any.
+        linear: the linear laws that it started from, if there are any.
     """
-    found = [] if linear is None else [StageResult("linear law", linear, 0)]
+    found = [] if linear is None else [linear]
     epochs, losses = history.full_loss.T
     for i, segment in enumerate(segments):
         own = np.flatnonzero(history.part == i)

@@ -24,7 +24,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.preparation import Training
 from acausal.training.result import Fit, result
 from acausal.training.starts import halving, starts_of
-from acausal.training.strategy import segments, stage_results
+from acausal.training.strategy import StageResult, segments, stage_results
 from acausal.training.train import begins, train_here, train_on_workers, train_together
 
 LOGGER = logging.getLogger(__name__)
@@ -83,7 +83,9 @@ def run(
         for sentence in concerns(own, start, one):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
     described = options.described()
-    linear = None if from_data is None or from_data.linear is None else from_data.linear.loss
+    linear = None if from_data is None else from_data.linear
+    loose = () if linear is None else linear.loose
+    first = None if linear is None else StageResult(linear.title, linear.loss, 0)
     return tuple(
         result(
             own,
@@ -91,9 +93,10 @@ def run(
             judged or training.held,
             spread,
             {"seed": str(seed), **described},
-            stage_results(one.history, plan, linear),
+            stage_results(one.history, plan, first),
             error,
             () if from_data is None else from_data.not_laws,
+            loose,
         )
         for own, one, seed, error in zip(problems, trained, seeds, errors, strict=True)
     )
@@ -127,7 +130,7 @@ def _in_steps(training: Training, step: StepChoice) -> Training:
     """The last part of a training once more, in other steps."""
     assert training.automatic is not None
     last = training.automatic.stages[-1]
-    stage = last._replace(title=f"{last.title}, finer steps", above=-np.inf)
+    stage = last._replace(title="whole record, finer steps", above=-np.inf)
     problem, held = step.over(training.problem), training.held
     return replace(
         training,

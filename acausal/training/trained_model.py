@@ -77,6 +77,7 @@ class TrainedModel:
     stages: tuple[StageResult, ...] = ()
     step_error: float | None = None
     not_laws: tuple[str, ...] = ()
+    without_constant: tuple[str, ...] = ()
 
     @property
     def x0(self) -> dict[str, float]:

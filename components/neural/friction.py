@@ -20,11 +20,8 @@ class PartialFrictionCurve(PartialNetwork):
 
     It is asked for speeds ``>= 0``, so a curve that falls from rest on (Stribeck) is no harder than any other. What
     holds at rest is ``peak net(0)``: with the default ``peak=1`` all of it is learned. ``input_scale`` is a magnitude
-    of the speed, ``output_scale`` of the friction, from which training starts.
+    of the speed, ``output_scale`` of the friction, from which training starts; both are taken from the data by default.
     """
-
-    input_scale = ac.Option(1.0, doc="magnitude of the inputs, one number or one for each")
-    output_scale = ac.Option(1.0, doc="magnitude of the output")
 
     def _spec(self) -> Callable[[Any], Any]:
         return partial(_positive, **self._sizes)
@@ -58,9 +55,12 @@ def _positive(
     width: int,
     depth: int,
     activation: str | None,
-    input_scale: float,
-    output_scale: float,
+    input_scale: float | None,
+    output_scale: float | None,
 ) -> Any:
     """A positive network that starts near the output scale."""
     net = ac.MLP(1, width, depth, activation or "tanh", key=key)
-    return ac.networks.Scaled(ac.networks.Positive(net, _LEAST), input_scale, output_scale)
+    scales = {"input_scale": input_scale, "output_scale": output_scale}
+    given = {name: 1.0 if scale is None else scale for name, scale in scales.items()}
+    left_open = tuple(name for name, scale in scales.items() if scale is None)
+    return ac.networks.Scaled(ac.networks.Positive(net, _LEAST), **given, left_open=left_open)

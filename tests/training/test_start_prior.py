@@ -35,6 +35,10 @@ def test_the_noise_of_a_signal_is_told_from_the_signal(count: int):
     with_gap = pieces[0] + noise[0]
     with_gap[5:9] = np.nan
     assert noise_level([with_gap]) == pytest.approx(0.03, rel=0.4)
+    uneven = np.sort(rng.choice(count, count // 2, replace=False))
+    samples = (pieces[1] + noise[1])[uneven]
+    assert noise_level([samples], [t[uneven]]) == pytest.approx(0.03, rel=0.4)
+    assert noise_level([pieces[1][uneven]], [t[uneven]]) < 0.05 * level
 
 
 @pytest.mark.slow

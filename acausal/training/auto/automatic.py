@@ -13,14 +13,19 @@ import numpy as np
 
 from acausal.data import Data
 from acausal.networks import Affine, Scales, Shape, lacks_scales, linear_shape, with_scales
-from acausal.training.auto.linear_start import LinearStart, linear_module, linear_start
+from acausal.training.auto.linear_start import (
+    LinearStart,
+    linear_module,
+    linear_start,
+    with_constants_at_zero,
+)
 from acausal.training.auto.step_choice import StepChoice, chosen_steps, tried_steps
 from acausal.training.build_problem import build_problem, trained_networks
 from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
-from acausal.training.options import FitOptions
-from acausal.training.strategy import Stage
+from acausal.training.options import UPDATES, FitOptions
+from acausal.training.strategy import EVALUATIONS, Stage
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -31,8 +36,8 @@ MOST = 4000
 EXPLAINS = 0.5
 """The linear start explains a record if it leaves less than this part of the targets' deviation."""
 
-NOTHING = 0.9
-"""Where no state is measured, it is sought over beginnings of records if over all of them it leaves more than this."""
+ALMOST = 0.2
+"""Where nothing can begin within records, it is sought over ever shorter beginnings until it leaves less than this."""
 
 PIECE, PIECES = 25, 60
 """Samples of the pieces of records in which it is sought where it explains nothing; and how many pieces."""
@@ -46,8 +51,12 @@ FEW = 60
 WINDOWS = 100
 """Updates over windows."""
 
-GAIN = 2e-3
-"""A stage over whole records ends when its loss has not fallen by this part since the last evaluation."""
+LONGER = 4
+"""So many times the updates of `UPDATES` more over whole records, above the noise and while they gain something."""
+
+GAIN, NATS = 2e-3, 0.5
+"""A stage over whole records ends when its loss has not fallen by this part since the last evaluation, or by less where
+so small a part raises the logarithm of the likelihood of all samples by more than this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,24 +140,35 @@ def automatic(
         if pieces:
             short = _start(problem_of(pieces, trial, begins), shapes)
             if np.isfinite(short.loss):
-                step, start = trial, replace(short, trainable=replace(short.trainable, states=None))
+                found = replace(short.trainable, states=None)
+                title = f"linear law of pieces of {PIECE} samples"
+                step, start = trial, replace(short, trainable=found, title=title)
                 break
     assert start is not None
-    if shapes and start.problem.records.x is None:
-        explains = start.loss < NOTHING * np.sqrt(len(targets))
+    if shapes and not _begins_anywhere(start.problem):
         lengths = () if explains else (rows // 4, rows // 16, 2 * PIECE)
         for first in (n for n in lengths if n >= 2 * PIECE):
             begin = {n: _first_rows(data, first) for n, data in part.items()}
             short = _start(problem_of(begin, step), shapes)
             if short.loss < start.loss:
-                start, begun = short, first
-            if short.loss < level:
+                start = replace(short, title=f"linear law of the first {first} samples")
+                begun = first
+            if short.loss < ALMOST * np.sqrt(len(targets)):
                 break
     scale = options.loss == "nrmse"
     noise = noise_loss(problem_of(part, step).records) if scale else None
     step = chosen_steps(step, start.problem, start.trainable, noise, options)
     laws = _scales(start, shapes, explains)
-    new = tuple({**own, **{n: with_scales(own[n], *laws[n]) for n in shapes}} for own in params)
+    if shapes:
+        start = with_constants_at_zero(start, shapes, {n: laws[n][0] for n in shapes})
+        laws = _scales(start, shapes, explains)
+    new = tuple(
+        {
+            **own,
+            **{n: with_scales(own[n], *laws[n], without_constant=n in start.loose) for n in shapes},
+        }
+        for own in params
+    )
     settled = step.of(options, records)
     stages = _stages(start.problem, rows, begun, new[0], names, explains, noise, options)
     free = None if step.solver is None or options.dt is not None else step
@@ -160,7 +180,8 @@ def _start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
         return linear_start(problem, shapes)
     trainable = problem.start()
     loss = float(problem.simulate(trainable).loss)
-    return LinearStart({}, {}, loss if np.isfinite(loss) else np.inf, problem, trainable)
+    nothing = np.zeros((0, 0))
+    return LinearStart({}, {}, loss if np.isfinite(loss) else np.inf, problem, trainable, nothing)
 
 
 def _part(records: dict[str, Data], most: int) -> dict[str, Data]:
@@ -182,11 +203,16 @@ def _first_rows(data: Data, rows: int) -> Data:
     return data if len(data) <= rows else data.between(data.time[0], data.time[rows - 1])
 
 
+def _begins_anywhere(problem: Problem) -> bool:
+    """Whether a simulation can begin within records: all states are measured, and no mode tells of the past."""
+    return problem.records.x is not None and not problem.system.remembered
+
+
 def _pieces(
     data: dict[str, Data], problem: Problem
 ) -> tuple[dict[str, Data], dict[str, dict[str, float]]]:
     """Short pieces of records that begin where all states are known, and the states there."""
-    if problem.records.x is None:
+    if not _begins_anywhere(problem):
         return {}, {}
     x = np.asarray(problem.records.x)
     cuts = [
@@ -261,12 +287,15 @@ def _stages(
     ]
     count = sum(leaf.size for leaf in leaves) + len(problem.modifiers.names)
     few = count <= FEW
-    epochs = options.updates[0] if options.epochs is not None else (50 if few else 200)
     kind = "gauss_newton" if few else "whole_record"
+    usual = options.epochs is None
+    epochs = UPDATES[kind] if usual else options.updates[0]
     enough = -np.inf if noise is None else GOOD * noise
-    measured = problem.records.x is not None
-    whole = Stage(kind, epochs, gain=GAIN, title="whole record")
-    if measured:
+    gain = min(GAIN, NATS / float(np.sum(np.asarray(problem.records.weight) > 0)))
+    whole = Stage(kind, epochs, gain=gain, title="whole record")
+    more = whole._replace(epochs=LONGER * epochs, every=epochs // EVALUATIONS, above=enough)
+    ends = (whole, more._replace(title="whole record, longer")) if usual else (whole,)
+    if _begins_anywhere(problem):
         lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]
         part = Stage("sequences", WINDOWS, onward=True, descent=True)
         windows = [part._replace(rows=n, title=f"windows of {n} samples") for n in lengths]
@@ -275,7 +304,7 @@ def _stages(
         lengths = [n for k in range(rows.bit_length()) if (n := begun << k) < 0.7 * rows]
         windows = [part._replace(rows=n, title=f"first {n} samples") for n in lengths]
     if not explains:
-        return (*windows, whole)
+        return (*windows, *ends)
     if noise is None or not names:
         return (whole,)
-    return (whole, *(stage._replace(above=enough) for stage in (*windows, whole)))
+    return (*ends, *(stage._replace(above=enough) for stage in (*windows, *ends)))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import jax
@@ -18,7 +18,7 @@ from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Float
 
 from acausal._jax import compiled
-from acausal.networks import Affine, BesideLinear, BesideQuadratic, Shape
+from acausal.networks import Affine, BesideLinear, BesideQuadratic, Scales, Shape
 from acausal.simulation import EXPLICIT
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
@@ -34,11 +34,21 @@ SPREAD, BEST = 16, 4
 SIZES = tuple(10.0 ** (k / 2) for k in range(-18, 19))
 """Slopes and offsets that are tried, with both signs."""
 
+ALONE = 0.9
+"""Laws that leave more than this part of the targets, each alone, are tried in pairs: in series, they only act so."""
+
 JOINT = 64
 """Combinations of the laws of several networks that are tried."""
 
 ALIKE = 1e-4
 """Points whose losses differ by less than this part are taken as one: a very small law acts as none."""
+
+LOOSE, LITTLE, LIKELY = 1.0, 0.01, 0.5
+"""A constant is loose if its standard deviation is more than so much of its law, if the loss rises by less than this
+part without it, and if the starts and parameters that go with it are as likely: within one standard deviation."""
+
+UNSEEN = 1e-12
+"""Curvature, relative to that of each number alone, below which the loss is flat apart from rounding."""
 
 STEPS, ENOUGH = 15, 1e-3
 """Steps of Gauss-Newton at most; it ends when the loss falls by less than this part."""
@@ -67,6 +77,9 @@ class LinearStart:
             of the slope of each input, and of the offset.
         loss: over the records.
         problem, trainable: for what else is asked.
+        hessian: of the loss, by all that is trained.
+        loose: networks whose constant nothing determines, and which vanish at zero for that reason.
+        title: what it is of.
     """
 
     laws: dict[str, Affine]
@@ -74,6 +87,9 @@ class LinearStart:
     loss: float
     problem: Problem
     trainable: Trainable
+    hessian: Float[np.ndarray, "P P"]
+    loose: tuple[str, ...] = ()
+    title: str = "linear law"
 
 
 def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
@@ -84,11 +100,12 @@ def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
         shapes: by network, what linear laws may be like.
     """
     objective = over_whole_record(problem)
-    start, unravel = ravel_pytree(objective.start())
+    start, _ = ravel_pytree(objective.start())
     places = _places(objective, shapes)
     found = _Points(objective, len(start))
     base = np.asarray(start)
-    best: dict[str, list[np.ndarray]] = {}
+    best: dict[tuple[str, ...], list[np.ndarray]] = {}
+    least = np.inf
     most = SPREAD if len(shapes) == 1 else 1
     for name in sorted(shapes, key=lambda n: not shapes[n].divides):
         own = _decades(base, places[name], shapes[name])
@@ -97,24 +114,110 @@ def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
         for place in places[name]:  # the best points of every slope, and of the offset
             rows = [k for k, point in enumerate(own) if point[place] != base[place]]
             kept += [own[rows[k]] - base for k in _unlike(losses[rows], most)]
-        best[name] = kept
+        best[name,] = kept
+        least = min(least, losses.min())
         if shapes[name].divides and kept:
             base = base + kept[0]
-            best[name] = []
+            best[name,] = []
+    if least > ALONE * np.sqrt(len(problem.targets)):
+        for names in itertools.combinations(shapes, 2):
+            own = _together(base, [places[n][0] for n in names])
+            best[names] = [own[k] - base for k in _unlike(found.at(own)[0], BEST)]
     choices = [[np.zeros_like(base), *rows] for rows in best.values()]
     joint = [
         base + sum(rows, np.zeros_like(base))
         for rows in itertools.islice(itertools.product(*choices), JOINT)
     ]
     point, loss, hessian = _gauss_newton(found, joint, _rising(places, shapes))
-    trainable = unravel(jnp.asarray(point))
-    laws = {n: _law(point, places[n], shapes[n]) for n in shapes}
-    diagonal = np.diag(hessian) if np.isfinite(loss) else np.zeros(len(base))
-    moves = (
-        np.sqrt(max(loss, 1e-300) / np.maximum(diagonal, 1e-300)) if np.isfinite(loss) else diagonal
+    return _linear(objective, shapes, point, loss, hessian)
+
+
+def with_constants_at_zero(
+    start: LinearStart, shapes: dict[str, Shape], scales: dict[str, Scales]
+) -> LinearStart:
+    """The same start with laws that vanish at zero, where neither records nor what is known of starts tell a constant.
+
+    A current through a coil whose start is not measured does for a constant of the current beside it, and a force of
+    one law for that of another one. So the constant is known less well than the law is large, and without it the loss
+    and the starts are as good as with it.
+
+    Arguments:
+        start: from `linear_start`. shapes: as there. scales: of the laws, by network.
+    """
+    objective, held, loose = start.problem, list[int](), list[str]()
+    places = _places(objective, shapes)
+    rising, rest = _rising(places, shapes), [n for n in shapes if _has_constant(shapes[n])]
+    while rest and np.isfinite(start.loss):
+        known = _covariance(start, held)
+        sigma = {n: _deviation(known, places[n], shapes[n], scales[n]) for n in rest}
+        name = max(rest, key=lambda n: sigma[n] / scales[n].output)
+        if sigma[name] < LOOSE * scales[name].output:
+            break
+        rest.remove(name)
+        point = np.array(ravel_pytree(start.trainable)[0])
+        trial = [*held, places[name][-1]]
+        point[trial] = 0.0
+        found = _Points(objective, len(point))
+        point, loss, hessian = _gauss_newton(found, [point], rising, trial)
+        again = replace(_linear(objective, shapes, point, loss, hessian), title=start.title)
+        nats, rise = _nats(again) - _nats(start), loss / start.loss - 1
+        if nats < LIKELY and rise < LITTLE:
+            held, loose, start = trial, [*loose, name], again
+    return replace(start, loose=tuple(n for n in shapes if n in loose))
+
+
+def _has_constant(shape: Shape) -> bool:
+    """Whether a law has a constant that can be subtracted from it."""
+    open_ = not shape.through_zero and not shape.energy and not shape.positive
+    return open_ and shape.every == 1
+
+
+def _covariance(start: LinearStart, held: Sequence[int]) -> np.ndarray:
+    """Of all that is trained, as the linear laws have it, with what is left as noise; zero for what is held."""
+    free = np.setdiff1d(np.arange(len(start.hessian)), held)
+    hessian = start.hessian[np.ix_(free, free)]
+    unit = 1 / np.sqrt(np.maximum(np.diag(hessian), 1e-300))
+    curvatures, axes = np.linalg.eigh(hessian * np.outer(unit, unit))
+    inverse = axes / np.maximum(curvatures, UNSEEN) @ axes.T  # large where nothing is known
+    found = np.zeros_like(start.hessian)
+    found[np.ix_(free, free)] = (
+        start.loss / _samples(start.problem) * inverse * np.outer(unit, unit)
     )
-    sensitive = {n: _law(moves, places[n], shapes[n]) for n in shapes}
-    return LinearStart(laws, sensitive, loss, objective, trainable)
+    return found
+
+
+def _nats(start: LinearStart) -> float:
+    """How unlikely is what is found, by what is known without data."""
+    return _samples(start.problem) * float(start.problem.log_prior(start.trainable))
+
+
+def _samples(problem: Problem) -> int:
+    return int(np.sum(np.asarray(problem.records.weight) > 0))
+
+
+def _deviation(
+    covariance: np.ndarray, places: Sequence[int], shape: Shape, scales: Scales
+) -> float:
+    """The standard deviation of a law in the middle of its range."""
+    by = np.zeros(len(covariance))
+    by[list(places)] = [*scales.centre[: shape.inputs], 1.0]
+    return float(np.sqrt(max(by @ covariance @ by, 0.0)))
+
+
+def _linear(
+    objective: Problem,
+    shapes: dict[str, Shape],
+    point: np.ndarray,
+    loss: float,
+    hessian: np.ndarray,
+) -> LinearStart:
+    """The laws at a point."""
+    places = _places(objective, shapes)
+    _, unravel = ravel_pytree(objective.start())
+    diagonal = np.maximum(np.diag(hessian), 1e-300)
+    moves = np.sqrt(max(loss, 1e-300) / diagonal) if np.isfinite(loss) else np.zeros(len(point))
+    laws, sensitive = ({n: _law(v, places[n], shapes[n]) for n in shapes} for v in (point, moves))
+    return LinearStart(laws, sensitive, loss, objective, unravel(jnp.asarray(point)), hessian)
 
 
 def _unlike(losses: np.ndarray, most: int) -> list[int]:
@@ -147,18 +250,30 @@ def _law(point: np.ndarray, places: Sequence[int], shape: Shape) -> Affine:
 
 
 def _rising(places: dict[str, list[int]], shapes: dict[str, Shape]) -> list[int]:
-    return [k for n, shape in shapes.items() if shape.rising for k in places[n][: shape.inputs]]
+    """Places of what must not be negative: slopes of laws that rise, and constants of positive ones."""
+    slopes = [k for n, shape in shapes.items() if shape.rising for k in places[n][: shape.inputs]]
+    return slopes + [places[n][-1] for n, shape in shapes.items() if shape.positive]
 
 
 def _decades(base: np.ndarray, places: Sequence[int], shape: Shape) -> list[np.ndarray]:
     """Points that differ from another one by one slope, or the offset, of one law."""
     points: list[np.ndarray] = [base]
     for i, place in enumerate(places):
-        signs = (1.0,) if shape.rising and i < shape.inputs else (1.0, -1.0)
+        signs = (1.0,) if shape.positive or (shape.rising and i < shape.inputs) else (1.0, -1.0)
         for value in itertools.product(SIZES, signs):
             point = base.copy()
             point[place] = value[0] * value[1]
             points.append(point)
+    return points
+
+
+def _together(base: np.ndarray, places: Sequence[int]) -> list[np.ndarray]:
+    """Points that differ from another one by positive slopes of several laws, decade by decade."""
+    points: list[np.ndarray] = []
+    for values in itertools.product(SIZES[::2], repeat=len(places)):
+        point = base.copy()
+        point[list(places)] = values
+        points.append(point)
     return points
 
 
@@ -210,7 +325,7 @@ def _evaluate(
 
 
 def _gauss_newton(
-    found: _Points, starts: list[np.ndarray], rising: list[int]
+    found: _Points, starts: list[np.ndarray], rising: list[int], held: Sequence[int] = ()
 ) -> tuple[np.ndarray, float, np.ndarray]:
     """The best point, its loss and Hessian."""
     loss, gradient, hessian = found.at(starts)
@@ -224,7 +339,9 @@ def _gauss_newton(
         trials: list[np.ndarray] = []
         for loss, point, gradient, hessian in known:
             for damping in dampings:
-                trial = point + _step(gradient, hessian, damping) if np.isfinite(loss) else point
+                trial = (
+                    point + _step(gradient, hessian, damping, held) if np.isfinite(loss) else point
+                )
                 trial[rising] = np.where(trial[rising] < 0, 0.1 * point[rising], trial[rising])
                 trials.append(trial)
         loss, gradient, hessian = found.at(trials)
@@ -241,9 +358,12 @@ def _gauss_newton(
     return point, float(loss), hessian
 
 
-def _step(gradient: np.ndarray, hessian: np.ndarray, damping: float) -> np.ndarray:
-    """Of Levenberg and Marquardt, damped relative to the Hessian's diagonal."""
+def _step(
+    gradient: np.ndarray, hessian: np.ndarray, damping: float, held: Sequence[int]
+) -> np.ndarray:
+    """Of Levenberg and Marquardt, damped relative to the Hessian's diagonal; zero for what is held."""
     diagonal = np.diag(hessian)
     unit = np.where(diagonal > 0, 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0)), 0.0)
+    unit[list(held)] = 0.0
     matrix = hessian * np.outer(unit, unit) + damping * np.eye(len(unit))
     return -unit * np.linalg.lstsq(matrix, unit * gradient, rcond=None)[0]

@@ -6,8 +6,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
+import jax
+import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array, Float
 
+from acausal.errors import listing
 from acausal.simulation import EXPLICIT
 from acausal.training.auto.step_choice import allowed_error, difference
 from acausal.training.objective.losses import LOSSES, noise_loss
@@ -20,6 +24,12 @@ DOWN_TO = 1.15
 
 SMALL = 0.01
 """and one of less than this part of the targets' deviation is small, whatever the noise."""
+
+LIKELY, FAR = 0.9, np.log(5)
+"""What is left looks like a change of a parameter if this part follows it, and the change is not by such a factor."""
+
+AT_ONCE = 16
+"""Parameters whose effects are computed at once."""
 
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
@@ -76,11 +86,15 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"the noise is {100 * noise / level:.2g} %."
         )
     others = [] if down else list(_left(fit))
+    if not good and np.isfinite(fit.loss) and steps and (sentence := _parameters(fit)):
+        others.append(sentence)
     if not steps and fit.step_error is not None:
         others.append(
             f"Its steps err by {100 * fit.step_error / level:.2g} % of the targets: take a smaller dt."
         )
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
+    if fit.without_constant:
+        others.append(_constants(fit))
     if fit.not_laws:
         names = ", ".join(fit.not_laws)
         others.append(
@@ -101,6 +115,64 @@ def _left(fit: TrainedModel) -> Iterator[str]:
         elif each.bound < 1 and not each.is_white:
             largest = float(np.max(np.abs(each.own)))
             yield f"The residuals of {each.target} are not white, up to a correlation of {largest:.2g}."
+
+
+def _parameters(fit: TrainedModel) -> str | None:
+    """Which parameter, taken as known, what is left is most like a change of."""
+    problem, trainable = fit.problem, fit.trained
+    params, layout = problem.assemble(trainable), problem.system.layout
+    names = [
+        n
+        for n in layout.names
+        if n not in problem.modifiers.names
+        and n in params
+        and np.ndim(params[n]) == 0
+        and float(params[n]) != 0
+        and layout.why_not_free(n) is None
+    ]
+    if not names:
+        return None
+
+    def effect(direction: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+        def after(step: Float[Array, ""]) -> Float[Array, "N n_targets"]:
+            moves = {
+                n: params[n] * jnp.exp(step * d) for n, d in zip(names, direction, strict=True)
+            }
+            return problem.predict(trainable, {**params, **moves})
+
+        return jax.jvp(after, (jnp.zeros(()),), (jnp.ones(()),))[1]
+
+    found = jax.jit(lambda rows: jax.lax.map(effect, rows, batch_size=AT_ONCE))(jnp.eye(len(names)))
+    sigma, weight = (np.asarray(a) for a in (problem.records.sigma, problem.records.weight))
+    effects = np.asarray(found) / sigma * (weight > 0)
+    left = np.asarray(problem.residuals(problem.predict(trainable, params))) / sigma
+    along, own = np.tensordot(effects, left, 2), np.sum(effects**2, axis=(1, 2))
+    with np.errstate(all="ignore"):
+        moves = np.where(own > 0, along / own, 0.0)
+        shares = np.where(np.abs(moves) < FAR, np.sqrt(moves * along / np.sum(left**2)), 0.0)
+    likely = [i for i in np.argsort(-shares)[:3] if shares[i] > LIKELY]
+    if not likely:
+        return None
+    changes = [f"{names[i]} changed by {100 * np.expm1(moves[i]):+.2g} %" for i in likely]
+    return (
+        f"What is left looks as if {' or '.join(changes)}: "
+        f"if you do not know it so well, train it, too (modifiers=['{names[likely[0]]}'])."
+    )
+
+
+def _constants(fit: TrainedModel) -> str:
+    """What would determine the constants that nothing determines."""
+    missing = np.isnan(np.asarray(fit.problem.first_states.given))
+    unknown = [n for n, column in zip(fit.system.states, missing.T, strict=True) if column.any()]
+    remedy = (
+        f"say where {listing(unknown)} starts (x0=...)"
+        if unknown
+        else "say which of several laws vanishes at zero (zero_crossing=...)"
+    )
+    return (
+        f"No record determines the constant of {listing(fit.without_constant)}: it is taken as zero at zero. "
+        f"To find it, {remedy}."
+    )
 
 
 def _ranges(fit: TrainedModel) -> Iterator[str]:

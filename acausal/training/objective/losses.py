@@ -56,8 +56,9 @@ def noise_of(records: Records) -> Float[np.ndarray, " n_targets"]:
     """By target, the standard deviation of white noise in its samples; at most, where there is other noise."""
     measured, of = records.measured, np.asarray(records.of)
     pieces = [measured[of == k] for k in range(records.count)]
+    times = [np.asarray(records.steps.t)[of == k] for k in range(records.count)]
     return np.array(
-        [noise_level([piece[:, i] for piece in pieces]) for i in range(measured.shape[1])]
+        [noise_level([piece[:, i] for piece in pieces], times) for i in range(measured.shape[1])]
     )
 
 

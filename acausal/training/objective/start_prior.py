@@ -55,7 +55,8 @@ def start_prior(
         if signal is None or np.isnan(signal[0]):
             return np.nan if signal is None or np.isnan(signal).all() else float(np.nanstd(signal))
         with np.errstate(over="ignore"):
-            noise, deviation = noise_level([np.asarray(signal)]), np.nanstd(signal)
+            noise = noise_level([np.asarray(signal)], [np.asarray(record.time)])
+            deviation = np.nanstd(signal)
         return noise if given is None and EXACT * deviation < noise < np.inf else 0.0
 
     rows: list[list[float]] = []

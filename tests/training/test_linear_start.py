@@ -1,0 +1,192 @@
+"""Linear laws in the place of networks, before the training of these."""
+
+from pathlib import Path
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import (
+    electrical as el,
+    neural,
+    rotational as rot,
+    thermal,
+    translational as tl,
+)
+from acausal.networks import (
+    Affine,
+    Law,
+    OffsetCorrected,
+    Scales,
+    kept_promises,
+    lacks_scales,
+    linear_shape,
+    networks,
+    with_scales,
+)
+from acausal.training.auto.automatic import _stages
+from acausal.training.auto.linear_start import (
+    LinearStart,
+    linear_module,
+    linear_start,
+    with_constants_at_zero,
+)
+from acausal.training.build_problem import build_problem
+from acausal.training.objective.problem import Problem
+from acausal.training.options import FitOptions
+from acausal.training.strategy import segments
+from benchmarks.by_default import Wired
+from tests.support.hybrid_training import Zone
+
+T = np.linspace(0.0, 0.02, 101)
+VOLTS = np.sin(900 * T) + 0.5 * np.sin(2100 * T + 1)
+
+
+def problem_of(learner: ac.Component, target: str, **signals: np.ndarray) -> Problem:
+    system = ac.compile(learner)
+    params = system.parameters()
+    linear = {n: linear_module(linear_shape(net)) for n, net in networks(params).items()}
+    options = FitOptions(solver="rk4")
+    record = ac.Data(T, signals)
+    return build_problem(system, {"run": record}, (target,), {**params, **linear}, options)
+
+
+def start_of(problem: Problem) -> LinearStart:
+    fresh = problem.system.parameters()
+    return linear_start(problem, {n: linear_shape(fresh[n]) for n in problem.networks})
+
+
+def element() -> ac.Component:
+    return neural.Resistance(el.PositivePin, width=4, depth=1)
+
+
+@pytest.mark.slow
+def test_laws_that_act_only_together_are_found_together() -> None:
+    """Two resistors in series, one alone of which lets nothing through."""
+    circuit = Wired(
+        [("source.p", "one.p"), ("one.n", "other.p"), ("other.n", "capacitor.p"),
+         ("capacitor.n", "source.n", "ground.p")],
+        source=el.SignalVoltage(), one=element(), other=element(), capacitor=el.Capacitor(C=1e-6), ground=el.Ground(),
+    )  # fmt: skip
+    fine = np.linspace(0.0, T[-1], 100 * (len(T) - 1) + 1)
+    drive, v = np.interp(fine, T, VOLTS), np.zeros(len(fine))
+    for k, h in enumerate(np.diff(fine)):  # Euler, with 1 ms
+        v[k + 1] = v[k] + h / 1e-3 * (drive[k] - v[k])
+    found = start_of(
+        problem_of(circuit, "capacitor.v", **{"source.v": VOLTS, "capacitor.v": v[::100]})
+    )
+    assert found.loss < 0.02
+    (one,), (other,) = (found.laws[n].slope for n in ("one.net", "other.net"))
+    assert one * other / (one + other) * 1e3 == pytest.approx(1.0, rel=0.02)
+
+
+def test_a_constant_that_nothing_determines_is_left_out() -> None:
+    """The current of a coil whose start is not measured takes any constant of the current beside it."""
+
+    def circuit(coil: ac.Component) -> ac.Component:
+        return Wired(
+            [("source.p", "resistor.p"), ("resistor.n", "coil.p", "capacitor.p", "beside.p"),
+             ("coil.n", "capacitor.n", "beside.n", "source.n", "ground.p")],
+            source=el.SignalVoltage(), resistor=el.Resistor(R=100.0), coil=coil, capacitor=el.Capacitor(C=1e-5),
+            beside=element(), ground=el.Ground(),
+        )  # fmt: skip
+
+    fine = np.linspace(0.0, T[-1], 200 * (len(T) - 1) + 1)
+    drive, x = np.interp(fine, T, VOLTS), np.zeros((len(fine), 2))
+    for k, h in enumerate(np.diff(fine)):  # Euler
+        v, i = x[k]
+        x[k + 1] = v + h / 1e-5 * ((drive[k] - v) / 100 - i - 5e-3 * v), i + h / 0.1 * v
+    signals = {"source.v": VOLTS, "capacitor.v": x[::200, 0], "coil.i": x[::200, 1]}
+    scales = {"beside.net": Scales((0.0,), (1.0,), 5e-3)}
+
+    def kept(*measured: str, i: float = 0.0) -> LinearStart:
+        names = ("source.v", "capacitor.v", *measured)
+        learner = circuit(el.Inductor(L=0.1, i=ac.Start(i)))
+        start = start_of(problem_of(learner, "capacitor.v", **{n: signals[n] for n in names}))
+        return with_constants_at_zero(start, {"beside.net": linear_shape(Law()(0))}, scales)
+
+    assert kept("coil.i").loose == ()
+    unknown = kept()
+    assert unknown.loose == ("beside.net",)
+    assert kept(i=0.1).loose == ()  # it would have to start many times its range away
+    law = unknown.laws["beside.net"]
+    assert law.offset == 0.0
+    assert law.slope[0] == pytest.approx(5e-3, rel=0.02)
+
+
+def test_of_two_laws_that_share_a_constant_one_has_none() -> None:
+    fine = np.linspace(0.0, T[-1], 100 * (len(T) - 1) + 1)
+    push, x = np.interp(fine, T, VOLTS), np.zeros((len(fine), 2))
+    for k, h in enumerate(np.diff(fine)):  # Euler
+        s, v = x[k]
+        x[k + 1] = s + h * v, v + h / 1e-3 * (push[k] - 2.0 * v - 3e3 * s - 0.5)
+    signals = {"push.f": VOLTS, "mass.s": x[::100, 0], "mass.v": x[::100, 1]}
+    sprung = Wired(
+        [("wall.flange", "spring.flange_a", "damper.flange_a"),
+         ("spring.flange_b", "damper.flange_b", "mass.flange_a"), ("mass.flange_b", "push.flange")],
+        wall=tl.Fixed(), spring=neural.Compliance(width=4, depth=1), damper=neural.Resistance(width=4, depth=1),
+        mass=tl.Mass(m=1e-3), push=tl.Force(),
+    )  # fmt: skip
+    start = start_of(problem_of(sprung, "mass.s", **signals))
+    shapes = {n: linear_shape(Law()(0)) for n in start.laws}
+    scales = {n: Scales((0.0,), (1.0,), 1.0) for n in shapes}
+    kept = with_constants_at_zero(start, shapes, scales)
+    assert len(kept.loose) == 1
+    assert sum(law.offset for law in kept.laws.values()) == pytest.approx(0.5, rel=0.05)
+
+
+def test_a_law_without_constant_goes_along_in_files(tmp_path: Path) -> None:
+    system = ac.compile(
+        Wired(
+            [("element.p", "capacitor.p"), ("element.n", "capacitor.n", "ground.p")],
+            element=element(), capacitor=el.Capacitor(C=1.0), ground=el.Ground(),
+        )
+    )  # fmt: skip
+    own = system.parameters()["element.net"]
+    law = Affine((3.0,), -2.0)
+    net = with_scales(own, Scales((20.0,), (5.0,), 15.0), law, without_constant=True)
+    assert isinstance(net, OffsetCorrected)
+    assert float(net(jnp.asarray(0.0))) == 0.0
+    ac.save_params({**system.parameters(), "element.net": net}, tmp_path / "p.safetensors")
+    loaded = ac.load_params(tmp_path / "p.safetensors", system)["element.net"]
+    for v in (-4.0, 20.0, 31.0):
+        assert float(loaded(v)) == float(net(v))
+
+
+def test_a_relay_is_followed_from_the_start_for_ever_longer() -> None:
+    """Nothing measured says whether it is on in the middle of a record."""
+    problem = problem_of(
+        Zone(neural.Resistance(thermal.HeatPort, width=4, depth=1)),
+        "zone.T",
+        **{"zone.T": 290 + np.sin(T)},
+    )
+    assert problem.records.x is not None
+    none = FitOptions()
+    planned = _stages(problem, 101, 25, problem.params, problem.networks, False, None, none)
+    titles = ["first 25 samples", "first 50 samples", "whole record", "whole record, longer"]
+    assert [stage.title for stage in planned] == titles
+    *_, whole = segments(problem, planned, none)
+    assert whole.stage.gain == pytest.approx(2e-3)
+    assert whole.epochs > 10 * whole.evaluate_every  # it goes on for as long as it gains something
+
+
+def test_a_positive_law_begins_at_a_constant(tmp_path: Path) -> None:
+    """Friction that locks has the sign of the speed: a motor's, in a newton millimetre, not in newton metres."""
+    shaft = Wired(
+        [("drive.flange", "inertia.flange_a"), ("inertia.flange_b", "friction.flange_a")],
+        drive=rot.Torque(), inertia=rot.Inertia(J=1e-6), friction=neural.BearingFriction(width=4, depth=1),
+    )  # fmt: skip
+    system = ac.compile(shaft)
+    own = system.parameters()["friction.net"]
+    assert lacks_scales(own)
+    shape = linear_shape(own)
+    assert shape.positive
+    assert linear_module(shape, Affine((), 1e-3))(3.0) == pytest.approx(1e-3)
+    net = with_scales(own, Scales((0.0,), (200.0,), 1.0), Affine((), 1e-3))
+    assert "positive" in kept_promises(net)
+    values = [float(net(w)) for w in (0.0, 100.0, 200.0)]
+    assert values == pytest.approx([0.7e-3] * 3, abs=0.5e-3)
+    ac.save_params({**system.parameters(), "friction.net": net}, tmp_path / "p.safetensors")
+    loaded = ac.load_params(tmp_path / "p.safetensors", system)["friction.net"]
+    assert [float(loaded(w)) for w in (0.0, 100.0, 200.0)] == values
