@@ -29,14 +29,14 @@ SUM = 2048
 """Elements in a sum that XLA still compiles itself; more go to a library."""
 
 
-class Value(NamedTuple):
+class LaneValue(NamedTuple):
     """An array, and whether its last axis is that of the lanes; if not, all lanes share it."""
 
     array: Array
     laned: bool
 
 
-LaneRule: TypeAlias = Callable[[Equation, list[Value], int], list[Array]]
+LaneRule: TypeAlias = Callable[[Equation, list[LaneValue], int], list[Array]]
 """(equation, inputs, width) -> arrays with lanes; at least one input has lanes."""
 
 
@@ -60,7 +60,7 @@ def lanes(function: Flat, laned: Sequence[bool], width: int) -> Flat:
             for a, has in zip(args, laned, strict=True)
         ]
         traced = jax.make_jaxpr(function)(*one)
-        values = [Value(a, has) for a, has in zip(args, laned, strict=True)]
+        values = [LaneValue(a, has) for a, has in zip(args, laned, strict=True)]
         try:
             results = _evaluate(traced, values, width)
             return _widen_all(results, primitives.shapes(traced.jaxpr.outvars), width)
@@ -74,16 +74,16 @@ def lanes(function: Flat, laned: Sequence[bool], width: int) -> Flat:
     return side_by_side
 
 
-def _evaluate(closed: ClosedJaxpr, args: Sequence[Value], width: int) -> list[Value]:
+def _evaluate(closed: ClosedJaxpr, args: Sequence[LaneValue], width: int) -> list[LaneValue]:
     """The results of a closed jaxpr."""
     jaxpr = closed.jaxpr
-    known: dict[Var, Value] = dict(
-        zip(jaxpr.constvars, (Value(c, False) for c in closed.consts), strict=True)
+    known: dict[Var, LaneValue] = dict(
+        zip(jaxpr.constvars, (LaneValue(c, False) for c in closed.consts), strict=True)
     )
     known |= dict(zip(jaxpr.invars, args, strict=True))
 
-    def read(atom: Var | Literal) -> Value:
-        return Value(atom.val, False) if isinstance(atom, Literal) else known[atom]
+    def read(atom: Var | Literal) -> LaneValue:
+        return LaneValue(atom.val, False) if isinstance(atom, Literal) else known[atom]
 
     for equation in jaxpr.eqns:
         inputs = [read(atom) for atom in equation.invars]
@@ -91,20 +91,20 @@ def _evaluate(closed: ClosedJaxpr, args: Sequence[Value], width: int) -> list[Va
     return [read(atom) for atom in jaxpr.outvars]
 
 
-def _apply(equation: Equation, inputs: list[Value], width: int) -> list[Value]:
+def _apply(equation: Equation, inputs: list[LaneValue], width: int) -> list[LaneValue]:
     name = primitives.name_of(equation)
     if name in primitives.CALLS:
         return _evaluate(primitives.called(equation), inputs, width)
     if not any(v.laned for v in inputs):
-        return [Value(a, False) for a in bind(equation, [v.array for v in inputs])]
+        return [LaneValue(a, False) for a in bind(equation, [v.array for v in inputs])]
     results = RULES.get(name, _vmapped)(equation, inputs, width)
     expected = [(*shape, width) for shape in primitives.shapes(equation.outvars)]
     if [a.shape for a in results] != expected:
         raise UnknownEquationError(f"'{name}' has results of other shapes than {expected}")
-    return [Value(a, True) for a in results]
+    return [LaneValue(a, True) for a in results]
 
 
-def _widen(value: Value, shape: Shape, width: int) -> Array:
+def _widen(value: LaneValue, shape: Shape, width: int) -> Array:
     """The value with lanes and of that shape; a single number fills it."""
     array = jnp.asarray(value.array)
     target = (*shape, width)
@@ -115,51 +115,51 @@ def _widen(value: Value, shape: Shape, width: int) -> Array:
     return lax.broadcast_in_dim(array, target, kept)
 
 
-def _widen_all(values: Sequence[Value], shapes: Sequence[Shape], width: int) -> list[Array]:
+def _widen_all(values: Sequence[LaneValue], shapes: Sequence[Shape], width: int) -> list[Array]:
     return [_widen(v, shape, width) for v, shape in zip(values, shapes, strict=True)]
 
 
 # -- rules -------------------------------------------------------------------------------------------
 
 
-def _elementwise(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _elementwise(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     (shape,) = primitives.shapes(equation.outvars)
     return bind(equation, [_widen(v, shape, width) for v in inputs])
 
 
-def _same_axes(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _same_axes(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     """Parameters that count axes from the front stay right with one more at the end."""
     return bind(equation, _widen_all(inputs, primitives.shapes(equation.invars), width))
 
 
-def _vmapped(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _vmapped(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     axes = [-1 if v.laned else None for v in inputs]
     call = jax.vmap(lambda *a: bind(equation, a), axes, -1, axis_size=width)
     return call(*(v.array for v in inputs))
 
 
-def _broadcast(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _broadcast(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     shape, kept = primitives.parameters(equation)
     return [lax.broadcast_in_dim(inputs[0].array, (*shape, width), (*kept, len(shape)))]
 
 
-def _reshape(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _reshape(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     (sizes,) = primitives.parameters(equation)
     return [lax.reshape(inputs[0].array, (*sizes, width))]
 
 
-def _slice(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _slice(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     starts, limits, strides = primitives.parameters(equation)
     strides = None if strides is None else (*strides, 1)
     return [lax.slice(inputs[0].array, (*starts, 0), (*limits, width), strides)]
 
 
-def _transpose(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _transpose(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     (order,) = primitives.parameters(equation)
     return [lax.transpose(inputs[0].array, (*order, len(order)))]
 
 
-def _pad(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _pad(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     array, filler = inputs
     if filler.laned:
         return _vmapped(equation, inputs, width)
@@ -167,7 +167,7 @@ def _pad(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
     return [lax.pad(array.array, filler.array, (*config, (0, 0, 0)))]
 
 
-def _dot(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _dot(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     """A product of matrices or vectors as sums of products of elements."""
     (((left_sum, right_sum), (left_batch, _)),) = primitives.parameters(equation)
     if left_batch:
@@ -196,7 +196,7 @@ def _sums(left: Array, right: Array) -> Array:
     return jnp.concatenate([jnp.sum(row * right, axis=2) for row in rows])[:n]
 
 
-def _matrix(value: Value, summed: Shape) -> Array:
+def _matrix(value: LaneValue, summed: Shape) -> Array:
     """(rows, summed, lanes or 1) of an array, one of whose axes may be summed over."""
     array = value.array if value.laned else jnp.expand_dims(value.array, -1)
     free = [i for i in range(array.ndim - 1) if i not in summed]
@@ -205,15 +205,15 @@ def _matrix(value: Value, summed: Shape) -> Array:
     return array.reshape(-1, columns, array.shape[-1])
 
 
-def _scan(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
+def _scan(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
     body, n, m, options = primitives.scan_of(equation)
     constants, start, rows = inputs[:n], inputs[n : n + m], inputs[n + m :]
 
     def step(carry: list[Array], row: list[Array]) -> tuple[list[Array], list[Array]]:
         args = [
             *constants,
-            *(Value(a, True) for a in carry),
-            *(Value(a, v.laned) for a, v in zip(row, rows, strict=True)),
+            *(LaneValue(a, True) for a in carry),
+            *(LaneValue(a, v.laned) for a, v in zip(row, rows, strict=True)),
         ]
         shapes = primitives.shapes(body.jaxpr.outvars)
         results = _widen_all(_evaluate(body, args, width), shapes, width)

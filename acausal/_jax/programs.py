@@ -31,7 +31,6 @@ def compiled(function: Callable[P, Result]) -> Callable[P, Result]:
     Arguments:
         function: pure, of pytrees whose other leaves can be hashed; its result consists of arrays.
     """
-
     untyped: Callable[..., Result] = function
 
     @wraps(function)

@@ -17,7 +17,11 @@ from acausal.analysis.module_calls import (
     labels as labels,
     target as target,
 )
-from acausal.analysis.observer import Memory as Memory, Observer as Observer, observer as observer
+from acausal.analysis.observer import (
+    Observer as Observer,
+    ObserverMemory as ObserverMemory,
+    observer as observer,
+)
 from acausal.analysis.opened_loops import OpenLoop as OpenLoop, open_loop as open_loop
 from acausal.analysis.operating_point import (
     OperatingPoint as OperatingPoint,

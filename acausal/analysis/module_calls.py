@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 from jaxtyping import Array, Float
 
-from acausal.codegen import Formula, Packed, Values, compute, formula_of, run
+from acausal.codegen import ArrayFormula, Packed, Values, compute, formula_of, run
 from acausal.errors import ModelError, nearest
 from acausal.flattening import EquationGroup, Integers
 from acausal.modeling import ModuleCall, time
@@ -29,7 +29,7 @@ class Calls:
         arguments: what it is called with. targets: (n,) which module each row calls.
     """
 
-    arguments: tuple[Formula, ...]
+    arguments: tuple[ArrayFormula, ...]
     targets: Integers
 
     def values(self, system: System, values: Values) -> Float[Array, "n n_arguments"]:

@@ -30,7 +30,7 @@ ROUNDING = 1e-9
 """Measurements may be later than allowed by this part of it."""
 
 
-class Memory(NamedTuple):
+class ObserverMemory(NamedTuple):
     """What an observer remembers of its last step: time and inputs, NaN before the first, and what it believes."""
 
     t: Float[Array, ""]
@@ -40,7 +40,7 @@ class Memory(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class ObserverStep:
     """The step of an observer, a function of arrays alone.
 
     Attributes:
@@ -54,7 +54,7 @@ class Step:
     how: Linearized
     sigma: Float[Array, " p"]
     walk: Float[Array, " m"]
-    start: Memory
+    start: ObserverMemory
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -68,8 +68,8 @@ class Step:
         return np.array([n in system.held_inputs for n in system.inputs], bool)
 
     def after(
-        self, memory: Memory, t: Float[Array, ""], u: Float[Array, " n_inputs"], y: Array
-    ) -> Memory:
+        self, memory: ObserverMemory, t: Float[Array, ""], u: Float[Array, " n_inputs"], y: Array
+    ) -> ObserverMemory:
         """What is remembered after a time, with inputs and measurements there; y is NaN where nothing is measured."""
         is_first = jnp.isnan(memory.t)
         since, low = jnp.where(is_first, t, memory.t), jnp.where(is_first, u, memory.u)
@@ -79,9 +79,9 @@ class Step:
         known = ~jnp.isnan(y)
         measured = Measured(jnp.where(known, y, 0.0), known, self.sigma)
         belief, _ = self.how.correct(belief, lambda z: self.model.read(z, t, u), measured, None)
-        return Memory(t, u, self.model.closed(t, belief.mean, u), belief.covariance)
+        return ObserverMemory(t, u, self.model.closed(t, belief.mean, u), belief.covariance)
 
-    def read(self, names: tuple[str, ...], memory: Memory) -> Float[Array, " n_names"]:
+    def read(self, names: tuple[str, ...], memory: ObserverMemory) -> Float[Array, " n_names"]:
         """Variables of the model as they are estimated."""
         values = self.model.values(memory.t, memory.mean, memory.u)
         return self.model.system.read(names, values)
@@ -98,7 +98,7 @@ class Observer(ByName):
         step_of_arrays: the step as a function of arrays, which `acausal.export` writes.
     """
 
-    def __init__(self, step: Step, late: float = 0.0) -> None:
+    def __init__(self, step: ObserverStep, late: float = 0.0) -> None:
         """Arguments: the step, at whose start the observer begins; how late measurements may come [s]."""
         system, sensors = step.model.system, step.model.sensors
         n, m = 1 + len(system.inputs), len(step.names)
@@ -301,5 +301,5 @@ def observer(
     r = jnp.asarray([float(v) for v in known.values()])
     q = jnp.asarray([float(walks.get(n, 0.0)) for n in order])
     nothing = jnp.full(len(system.inputs), jnp.nan)
-    begin = Memory(jnp.asarray(jnp.nan), nothing, start.mean, start.covariance)
-    return Observer(Step(model, how, r, q, begin), float(late))
+    begin = ObserverMemory(jnp.asarray(jnp.nan), nothing, start.mean, start.covariance)
+    return Observer(ObserverStep(model, how, r, q, begin), float(late))

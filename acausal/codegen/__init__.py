@@ -13,7 +13,7 @@ from acausal.codegen.generator import generate as generate
 from acausal.codegen.instructions import (
     Accumulate as Accumulate,
     Arguments as Arguments,
-    Formula as Formula,
+    ArrayFormula as ArrayFormula,
     Instruction as Instruction,
     SolveTornLoop as SolveTornLoop,
 )

@@ -12,7 +12,7 @@ import numpy as np
 from jax import Array
 
 from acausal.codegen.dense import nearest, solve_linear, solve_nonlinear
-from acausal.codegen.instructions import Formula, SolveTornLoop
+from acausal.codegen.instructions import ArrayFormula, SolveTornLoop
 from acausal.codegen.lower import ModuleValue
 from acausal.codegen.reading import Arrays, compute, fill, read_elements
 from acausal.codegen.values import Packed, Values
@@ -133,6 +133,6 @@ def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Known) -> tuple[Arra
     return jnp.stack(unknowns), jnp.stack(residuals)
 
 
-def _value(formula: Formula, unknowns: Sequence[Any], t: Any, known: Known) -> Array:
+def _value(formula: ArrayFormula, unknowns: Sequence[Any], t: Any, known: Known) -> Array:
     """The value of a formula of the block."""
     return compute(formula, Packed(NOTHING, tuple(known)), [*unknowns, *known], t)

@@ -8,7 +8,7 @@ import numpy as np
 import sympy as sp
 
 from acausal.codegen.gather import Gather, signed
-from acausal.codegen.instructions import Arguments, Formula
+from acausal.codegen.instructions import Arguments, ArrayFormula
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.program import Program
 from acausal.errors import StructureError
@@ -25,7 +25,7 @@ def formula_of(
     *,
     orders: Sequence[int] | None = None,
     copies: Sequence[int] | None = None,
-) -> Formula:
+) -> ArrayFormula:
     """A formula for the instances of a group of equations.
 
     Arguments:
@@ -61,7 +61,7 @@ def formula_of(
         tuple((s, layout.gather(p)) for s, p in parameters if s in present),
         tuple((s, layout.chosen(m)) for s, m in modules if s in present),
     )
-    return Formula(expression, arguments, len(group))
+    return ArrayFormula(expression, arguments, len(group))
 
 
 def _gather(

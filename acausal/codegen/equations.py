@@ -16,7 +16,7 @@ from acausal.codegen.gather import Gather
 from acausal.codegen.instructions import (
     Accumulate,
     Arguments,
-    Formula,
+    ArrayFormula,
     Place,
     SolveSparseLoop,
     SolveTornLoop,
@@ -120,10 +120,10 @@ class _Writer:
 
     # -- rules: what an instruction needs for one value, and how that value is written ------------------
 
-    def formula_needs(self, one: Formula, place: Place) -> list[Place]:
+    def formula_needs(self, one: ArrayFormula, place: Place) -> list[Place]:
         return self._read(one.arguments, one.size, place[1])
 
-    def formula(self, one: Formula, place: Place) -> None:
+    def formula(self, one: ArrayFormula, place: Place) -> None:
         names = self._slots(one.arguments, one.size, place[1])
         self._values[place] = _readable(one.expression.xreplace(names))
 
@@ -177,7 +177,7 @@ class _Writer:
 
 
 _RULES: dict[type, tuple[Callable[..., list[Place]], Callable[..., None]]] = {
-    Formula: (_Writer.formula_needs, _Writer.formula),
+    ArrayFormula: (_Writer.formula_needs, _Writer.formula),
     Accumulate: (_Writer.accumulate_needs, _Writer.accumulate),
     SolveTornLoop: (_Writer.torn_loop_needs, _Writer.torn_loop),
     SolveSparseLoop: (_Writer.sparse_loop_needs, _Writer.sparse_loop),
@@ -207,7 +207,9 @@ def _is_readable(residuals: list[sp.Expr], unknowns: list[sp.Symbol]) -> bool:
     return sum(e.count_ops() for e in found) <= MAX_OPERATIONS
 
 
-def _written(formula: Formula, known: Sequence[sp.Expr], modules: Sequence[sp.Expr]) -> sp.Expr:
+def _written(
+    formula: ArrayFormula, known: Sequence[sp.Expr], modules: Sequence[sp.Expr]
+) -> sp.Expr:
     """A formula of a torn loop in the names of what it reads."""
     names: SlotExpressions = {internal_time: time}
     for symbol, gather in formula.arguments.variables:

@@ -38,7 +38,7 @@ class One:
 
 
 @dataclass(frozen=True)
-class Runs:
+class IndexRuns:
     """Slices (source, start, step, length), one behind the other."""
 
     runs: tuple[tuple[int, int, int, int], ...]
@@ -64,7 +64,7 @@ class Interleaved:
     Unlike a `Take`, it is differentiated without a scatter.
     """
 
-    columns: tuple[Runs, ...]
+    columns: tuple[IndexRuns, ...]
 
     @property
     def sources(self) -> tuple[int, ...]:
@@ -94,7 +94,7 @@ class Take:
         return np.asarray(self.sources)[place], positions
 
 
-Elements = One | Runs | Interleaved | Take
+Elements = One | IndexRuns | Interleaved | Take
 
 
 @dataclass(frozen=True)
@@ -132,13 +132,13 @@ def gather(source: Integers, index: Integers, sizes: Sequence[int]) -> Elements:
         return One(int(source[0]), int(index[0]))
     runs = _runs(source, index)
     if len(runs) <= MAX_RUNS:
-        return Runs(runs)
+        return IndexRuns(runs)
     for n in range(2, MAX_RUNS + 1):
         columns = (
             [_runs(source[i::n], index[i::n]) for i in range(n)] if len(source) % n == 0 else ()
         )
         if columns and sum(map(len, columns)) <= MAX_RUNS:
-            return Interleaved(tuple(Runs(column) for column in columns))
+            return Interleaved(tuple(IndexRuns(column) for column in columns))
     used = list(dict.fromkeys(source.tolist()))
     offset = np.zeros(max(used) + 1, dtype=np.int64)
     offset[used] = np.cumsum([0, *(sizes[s] for s in used[:-1])])

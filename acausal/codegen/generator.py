@@ -13,8 +13,8 @@ from acausal.codegen.gather import Gather, One, gather
 from acausal.codegen.instructions import (
     Accumulate,
     Arguments,
+    ArrayFormula,
     Balances,
-    Formula,
     Instruction,
     SolveSparseLoop,
     SolveTornLoop,
@@ -71,7 +71,7 @@ class _Generator:
             tuple((s, self.parameters.chosen(m)) for s, m in modules),
         )
 
-    def formula(self, step: Assignment) -> Formula:
+    def formula(self, step: Assignment) -> ArrayFormula:
         """One expression for all instances."""
         expression = step.template.solved(step.column)
         assert expression is not None
@@ -82,7 +82,7 @@ class _Generator:
             (step.template.modules, step.modules),
         )
         columns = ([(s, v) for s, v in _columns(*table) if s in present] for table in tables)
-        return Formula(expression, self._arguments(*columns), len(step.variables))
+        return ArrayFormula(expression, self._arguments(*columns), len(step.variables))
 
     def accumulate(self, step: Accumulation) -> Accumulate:
         """Sums of equally many terms."""
@@ -202,7 +202,7 @@ def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
 
 def _of_block(
     counts: tuple[int, int, int], expression: sp.Expr | None, stated: BlockEquation
-) -> Formula:
+) -> ArrayFormula:
     """An equation of a block; ``counts`` are those of its unknowns, of other variables and of parameters."""
     assert expression is not None
     template, (unknowns, others, numbers) = stated.template, counts
@@ -214,7 +214,7 @@ def _of_block(
         tuple((s, One(place, 0)) for s, place in zip(symbols, places, strict=True) if s in present),
         modules=tuple((s, (others + numbers + m,)) for s, m in modules if s in present),
     )
-    return Formula(expression, arguments, 1)
+    return ArrayFormula(expression, arguments, 1)
 
 
 def _columns(

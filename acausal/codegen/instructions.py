@@ -46,7 +46,7 @@ class Arguments:
 
 
 @dataclass(frozen=True)
-class Formula:
+class ArrayFormula:
     """One expression for ``size`` instances; as an instruction it fills an array with its values."""
 
     expression: sp.Expr
@@ -115,9 +115,9 @@ class SolveTornLoop:
         origins: where the equations that give residuals are stated, for each instance.
     """
 
-    equations: tuple[Formula, ...]
+    equations: tuple[ArrayFormula, ...]
     residual_rows: tuple[int, ...]
-    assigned: tuple[tuple[int, Formula], ...]
+    assigned: tuple[tuple[int, ArrayFormula], ...]
     tears: tuple[int, ...]
     matched: tuple[int, ...]
     is_linear: bool
@@ -139,7 +139,7 @@ class SolveTornLoop:
         return len(self.equations)
 
     @property
-    def residuals(self) -> tuple[Formula, ...]:
+    def residuals(self) -> tuple[ArrayFormula, ...]:
         """The residuals for given tearing variables."""
         return tuple(self.equations[row] for row in self.residual_rows)
 
@@ -223,4 +223,4 @@ class SolveSparseLoop(LeavesCaches):
         return [(place[0], i) for i in range(self.size)]
 
 
-Instruction = Formula | Accumulate | SolveTornLoop | SolveSparseLoop
+Instruction = ArrayFormula | Accumulate | SolveTornLoop | SolveSparseLoop

@@ -12,7 +12,7 @@ from jaxtyping import Array, Float
 from acausal.codegen.dense_loop import matched_residuals_of_torn_loops, solve_torn_loops
 from acausal.codegen.instructions import (
     Accumulate,
-    Formula,
+    ArrayFormula,
     Instruction,
     SolveSparseLoop,
     SolveTornLoop,
@@ -133,7 +133,7 @@ def _rates(program: Program, values: Values, arrays: list[Any]) -> Array:
     return found if (program.rate_signs == 1).all() else found * program.rate_signs
 
 
-def _compute(formula: Formula, values: Values, arrays: Arrays) -> list[Array]:
+def _compute(formula: ArrayFormula, values: Values, arrays: Arrays) -> list[Array]:
     return [compute(formula, values.packed, arrays, values.t)]
 
 
@@ -143,7 +143,7 @@ def _accumulate(instruction: Accumulate, values: Values, arrays: Arrays) -> list
 
 
 _EXECUTE: dict[type, Callable[[Any, Values, Arrays], list[Array]]] = {
-    Formula: _compute,
+    ArrayFormula: _compute,
     Accumulate: _accumulate,
     SolveTornLoop: solve_torn_loops,
     SolveSparseLoop: solve_sparse_loop,

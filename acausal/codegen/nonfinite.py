@@ -9,7 +9,13 @@ import numpy as np
 from jax import Array
 
 from acausal.codegen.dense_loop import nearest_of_torn_loop
-from acausal.codegen.instructions import Accumulate, Formula, Place, SolveSparseLoop, SolveTornLoop
+from acausal.codegen.instructions import (
+    Accumulate,
+    ArrayFormula,
+    Place,
+    SolveSparseLoop,
+    SolveTornLoop,
+)
 from acausal.codegen.interpreter import steps
 from acausal.codegen.program import Program
 from acausal.codegen.reading import Arrays
@@ -47,7 +53,7 @@ def explain_nonfinite(
         place = (asked or bad)[0]
         together = instruction.found_with(place)
         names = [name(int(program.nodes[first + array][row])) for array, row in together]
-        if isinstance(instruction, Formula | Accumulate):
+        if isinstance(instruction, ArrayFormula | Accumulate):
             if reason := said_by_modules(_called(instruction, values)):
                 return f"'{names[0]}' cannot be computed. {reason}"
             value = np.atleast_1d(np.asarray(results[place[0]]))[place[1]]
@@ -73,9 +79,9 @@ def said_by_modules(modules: Iterable[Any]) -> str | None:
     return next((reason for why in asked if why and (reason := why())), None)
 
 
-def _called(instruction: Formula | Accumulate, values: Values) -> list[Any]:
+def _called(instruction: ArrayFormula | Accumulate, values: Values) -> list[Any]:
     """The modules that a formula calls."""
-    slots = instruction.arguments.modules if isinstance(instruction, Formula) else ()
+    slots = instruction.arguments.modules if isinstance(instruction, ArrayFormula) else ()
     return [values.packed.modules[m] for _, modules in slots for m in modules]
 
 

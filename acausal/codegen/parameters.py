@@ -11,7 +11,7 @@ import numpy as np
 import sympy as sp
 
 from acausal.codegen.gather import Gather, gather
-from acausal.codegen.instructions import Arguments, Formula
+from acausal.codegen.instructions import Arguments, ArrayFormula
 from acausal.errors import DataError, DeclarationError, listing, nearest
 from acausal.flattening import Binding, FlatModel, Integers, LeavesCaches, binding_levels
 from acausal.modeling import names_in
@@ -35,7 +35,7 @@ class ParameterLayout(LeavesCaches):
     free: Integers
     order: Integers
     position: Integers
-    bound: tuple[Formula, ...]
+    bound: tuple[ArrayFormula, ...]
     constants: np.ndarray
     module_of: Integers
 
@@ -197,7 +197,7 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     source, index, position = (np.full(n, -1, dtype=np.int64) for _ in range(3))
     source[free] = 0
     index[free[rank]] = position[free[rank]] = np.arange(len(free))
-    groups, sizes = list[Formula](), [len(free)]
+    groups, sizes = list[ArrayFormula](), [len(free)]
     levels, circular = binding_levels(
         [b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]],
         target,
@@ -214,7 +214,7 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
                 (s, gather(source[column], index[column], sizes))
                 for s, column in zip(members[0].symbols, columns, strict=True)
             )
-            groups.append(Formula(expression, Arguments(arguments), len(members)))
+            groups.append(ArrayFormula(expression, Arguments(arguments), len(members)))
             own = [b.target for b in members]
             source[own], index[own] = len(groups), np.arange(len(members))
             position[own] = sum(sizes) + index[own]

@@ -11,8 +11,8 @@ import sympy as sp
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.codegen.gather import Gather, Interleaved, One, Runs, Signed, Take
-from acausal.codegen.instructions import Accumulate, Arguments, Formula
+from acausal.codegen.gather import Gather, IndexRuns, Interleaved, One, Signed, Take
+from acausal.codegen.instructions import Accumulate, Arguments, ArrayFormula
 from acausal.codegen.lower import ModuleValue, collect, evaluate
 from acausal.codegen.values import Packed
 from acausal.modeling import INITIAL, time
@@ -45,7 +45,7 @@ def fill(
 
 
 def compute(
-    formula: Formula,
+    formula: ArrayFormula,
     packed: Packed,
     arrays: Arrays = (),
     t: ArrayLike = 0.0,
@@ -79,7 +79,7 @@ def _one(gather: One, arrays: Arrays) -> Array:
     return array if jnp.ndim(array) == 0 else array[gather.index]
 
 
-def _runs(gather: Runs, arrays: Arrays) -> Array:
+def _runs(gather: IndexRuns, arrays: Arrays) -> Array:
     pieces = [
         _slice(arrays[source], start, step, length) for source, start, step, length in gather.runs
     ]
@@ -113,7 +113,7 @@ def _signed(gather: Signed, arrays: Arrays) -> Array:
 
 _READ: dict[type, Callable[[Any, Arrays], Array]] = {
     One: _one,
-    Runs: _runs,
+    IndexRuns: _runs,
     Interleaved: _interleaved,
     Take: _take,
     Signed: _signed,

@@ -17,10 +17,10 @@ from textwrap import dedent, fill
 from typing import Any, TypeAlias
 
 import acausal as ac
-from acausal.command.output import Output
+from acausal.command.output import CommandOutput
 
 Parsers: TypeAlias = "_SubParsersAction[ArgumentParser]"
-Run: TypeAlias = Callable[[Namespace, Output], int | None]
+Run: TypeAlias = Callable[[Namespace, CommandOutput], int | None]
 """What runs a command; it returns an exit code, or None if all is well."""
 
 MODEL = "a JSON file, or module:Class, or file.py:Class; a function that makes a model will do, too"

@@ -8,7 +8,7 @@ from pathlib import Path
 import acausal as ac
 from acausal.command.arguments import Parsers, add_command, add_model, add_parameters
 from acausal.command.model import parameters_of, system_of, title_of
-from acausal.command.output import Output
+from acausal.command.output import CommandOutput
 
 
 def add(parsers: Parsers) -> None:
@@ -30,7 +30,7 @@ def add(parsers: Parsers) -> None:
     add_parameters(parser)
 
 
-def run(args: Namespace, out: Output) -> int:
+def run(args: Namespace, out: CommandOutput) -> int:
     """Check each model; the exit code of the first that is wrong."""
     codes: list[int] = []
     for text in args.model:
@@ -43,7 +43,7 @@ def run(args: Namespace, out: Output) -> int:
     return codes[0] if codes else 0
 
 
-def _check(text: str, args: Namespace, out: Output) -> None:
+def _check(text: str, args: Namespace, out: CommandOutput) -> None:
     """Compile a model and find its initial values."""
     system = system_of(args, text)
     start = system.initialize(parameters_of(args, system))

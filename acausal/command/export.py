@@ -17,13 +17,13 @@ from acausal.command.arguments import (
 )
 from acausal.command.exit_codes import UsageError
 from acausal.command.model import parameters_of, system_of, title_of
-from acausal.command.output import Output
+from acausal.command.output import CommandOutput
 from acausal.errors import listing
 from acausal.files import need_path
 
 
 @dataclass(frozen=True)
-class Form:
+class ExportForm:
     """A form of export.
 
     Attributes:
@@ -62,7 +62,7 @@ def add(parsers: Parsers) -> None:
         own.add_argument(f"--{option}", **(arguments | described))
 
 
-def run(args: Namespace, out: Output) -> None:
+def run(args: Namespace, out: CommandOutput) -> None:
     """Write the file."""
     name = args.form or _form_of(args.path)
     form = FORMS[name]
@@ -99,11 +99,11 @@ def _form_of(path: str) -> str:
 GRAPH = ("outputs", "network", "batch", "dtype")
 
 FORMS = {
-    "fmu": Form((".fmu",), ("outputs", "solver", "step", "fmi")),
-    "c": Form((".c", ".h"), ("outputs", "solver", "dtype")),
-    "onnx": Form((".onnx",), GRAPH),
-    "stablehlo": Form((".mlir", ".mlirbc", ".jax"), GRAPH),
-    "modelica": Form((".mo",), ("selfcontained",)),
+    "fmu": ExportForm((".fmu",), ("outputs", "solver", "step", "fmi")),
+    "c": ExportForm((".c", ".h"), ("outputs", "solver", "dtype")),
+    "onnx": ExportForm((".onnx",), GRAPH),
+    "stablehlo": ExportForm((".mlir", ".mlirbc", ".jax"), GRAPH),
+    "modelica": ExportForm((".mo",), ("selfcontained",)),
 }
 """Forms by the names of functions of `acausal.export`."""
 

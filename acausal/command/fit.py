@@ -21,7 +21,7 @@ from acausal.command.arguments import (
 )
 from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.options import as_keywords, read_options
-from acausal.command.output import Output, number
+from acausal.command.output import CommandOutput, number
 from acausal.command.records import add_reading, read_records
 
 
@@ -74,7 +74,7 @@ def keywords_of(args: Namespace) -> dict[str, Any]:
     return as_keywords({**given, **dict(args.option)})
 
 
-def run(args: Namespace, out: Output) -> None:
+def run(args: Namespace, out: CommandOutput) -> None:
     """Train, print what has changed, and write the parameters."""
     keywords = keywords_of(args)
     system = system_of(args)
@@ -99,7 +99,7 @@ def _file_name(title: str) -> str:
     return re.sub(r"[^\w.-]", "_", title) + "-trained.safetensors"
 
 
-def _show(done: ac.Fit, title: str, files: list[str], out: Output) -> None:
+def _show(done: ac.Fit, title: str, files: list[str], out: CommandOutput) -> None:
     end = ", interrupted" if done.interrupted else ""
     trained = ", ".join((*done.seen, *done.modifiers))
     out.title(

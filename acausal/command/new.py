@@ -12,7 +12,7 @@ from string import Template
 import acausal as ac
 from acausal.command.arguments import Parsers, add_command
 from acausal.command.exit_codes import UsageError
-from acausal.command.output import Output
+from acausal.command.output import CommandOutput
 from acausal.files import write_files
 
 FILES = {
@@ -47,7 +47,7 @@ def add(parsers: Parsers) -> None:
     )
 
 
-def run(args: Namespace, out: Output) -> None:
+def run(args: Namespace, out: CommandOutput) -> None:
     """Write the files."""
     name, folder = args.name, Path(args.into) / args.name
     _check_name(name)

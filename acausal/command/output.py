@@ -13,7 +13,7 @@ from acausal.command.exit_codes import kind_of
 
 
 @dataclass(frozen=True)
-class Output:
+class CommandOutput:
     """Where a command's results go: with colors and lines in a terminal, plain in a pipe or file.
 
     Attributes:

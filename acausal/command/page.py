@@ -14,7 +14,7 @@ from acausal.command.arguments import (
     need_new,
 )
 from acausal.command.model import system_of, title_of
-from acausal.command.output import Output
+from acausal.command.output import CommandOutput
 
 
 def add(parsers: Parsers) -> None:
@@ -35,7 +35,7 @@ def add(parsers: Parsers) -> None:
     add_overwrite(parser)
 
 
-def run(args: Namespace, out: Output) -> None:
+def run(args: Namespace, out: CommandOutput) -> None:
     """Write the page."""
     need_new(Path(args.folder) / "index.html", args, "folder")
     system = system_of(args)

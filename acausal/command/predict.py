@@ -20,7 +20,7 @@ from acausal.command.arguments import (
 )
 from acausal.command.fit import add_training, keywords_of
 from acausal.command.model import parameters_of, system_of, title_of
-from acausal.command.output import Output, number
+from acausal.command.output import CommandOutput, number
 from acausal.command.records import add_reading, read_records
 from acausal.errors import listing
 
@@ -57,7 +57,7 @@ def add(parsers: Parsers) -> None:
     add_reading(parser)
 
 
-def run(args: Namespace, out: Output) -> None:
+def run(args: Namespace, out: CommandOutput) -> None:
     """Predict, print the errors, and write files."""
     need_new(args.out, args, "folder by --out")
     need_new(args.report and Path(args.report) / "index.html", args, "folder by --report")

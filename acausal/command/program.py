@@ -13,7 +13,7 @@ from typing import TextIO
 import acausal as ac
 from acausal.command import check, export, fit, new, page, predict, show, simulate
 from acausal.command.exit_codes import BROKEN_PIPE, EXIT_CODES, USAGE, UsageError
-from acausal.command.output import Output
+from acausal.command.output import CommandOutput
 from acausal.command.verbosity import logging_to_stderr
 
 COMMANDS = (check, show, simulate, fit, predict, export, page, new)
@@ -56,7 +56,7 @@ def _parser() -> ArgumentParser:
 
 
 def _run(args: Namespace) -> int:
-    out = Output(args.json)
+    out = CommandOutput(args.json)
     try:
         with _warnings_to(out), logging_to_stderr(args.verbose):
             code = args.run(args, out)
@@ -70,7 +70,7 @@ def _run(args: Namespace) -> int:
 
 
 @contextmanager
-def _warnings_to(out: Output) -> Generator[None]:
+def _warnings_to(out: CommandOutput) -> Generator[None]:
     """Let warnings be sentences without the place in the library."""
 
     def show_warning(

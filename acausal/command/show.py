@@ -9,7 +9,7 @@ from typing import Any
 import acausal as ac
 from acausal.command.arguments import Parsers, add_command, add_model, add_parameters
 from acausal.command.model import parameters_of, system_of, title_of
-from acausal.command.output import Output, number
+from acausal.command.output import CommandOutput, number
 from acausal.errors import shown
 
 MOST = 40
@@ -45,7 +45,7 @@ def add(parsers: Parsers) -> None:
     parser.add_argument("--all", action="store_true", help=f"show more than {MOST} rows a section")
 
 
-def run(args: Namespace, out: Output) -> None:
+def run(args: Namespace, out: CommandOutput) -> None:
     """Print the sections."""
     system = system_of(args)
     params = parameters_of(args, system)
@@ -59,7 +59,7 @@ def run(args: Namespace, out: Output) -> None:
     out.result({"model": title_of(system), **found})
 
 
-def _print(rows: Sequence[Row], most: int | None, out: Output) -> None:
+def _print(rows: Sequence[Row], most: int | None, out: CommandOutput) -> None:
     texts = [[_text(value) for value in row.values()] for row in rows[:most]]
     if texts and len(rows[0]) == 1:
         for (text,) in texts:

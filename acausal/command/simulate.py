@@ -22,7 +22,7 @@ from acausal.command.arguments import (
 )
 from acausal.command.exit_codes import UsageError
 from acausal.command.model import parameters_of, system_of, title_of
-from acausal.command.output import Output, number
+from acausal.command.output import CommandOutput, number
 from acausal.command.records import add_reading, read_record
 from acausal.errors import nearest
 from acausal.files import need_path, write_files
@@ -83,7 +83,7 @@ def _add_times(parser: ArgumentParser) -> None:
     times.add_argument("--atol", type=float, default=1e-8, help="absolute tolerance (1e-8)")
 
 
-def run(args: Namespace, out: Output) -> None:
+def run(args: Namespace, out: CommandOutput) -> None:
     """Simulate, print a summary, and write files."""
     if args.out == "-" and args.json:
         raise UsageError("--out - and --json both write to the standard output; give --out a file.")
@@ -197,7 +197,11 @@ def _print_csv(solution: ac.Solution, names: list[str]) -> None:
 
 
 def _summary(
-    out: Output, title: str, solution: ac.Solution, columns: dict[str, np.ndarray], files: list[str]
+    out: CommandOutput,
+    title: str,
+    solution: ac.Solution,
+    columns: dict[str, np.ndarray],
+    files: list[str],
 ) -> None:
     """A line for each variable: where it began and ended, and how far it went."""
     time = columns["time"]

@@ -19,7 +19,7 @@ from jaxtyping import Float
 import acausal.simulation as simulation
 from acausal._jax import is_number
 from acausal.control.goals import Goals, Limits, Weights
-from acausal.control.transcription import METHODS, Program, program
+from acausal.control.transcription import METHODS, NonlinearProgram, program
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, need_compiled, need_whole, shown, user_level
 from acausal.export import casadi
@@ -142,7 +142,7 @@ class MPC:
         steps: int,
         goals: Goals,
         given: tuple[str, ...],
-        solver: Program,
+        solver: NonlinearProgram,
     ) -> None:
         self.system, self.dt, self.steps, self.goals, self.given = system, dt, steps, goals, given
         self._program = solver

@@ -44,7 +44,7 @@ METHODS = {"collocation": (collocated, DEGREE), "rk4": (stepped, 1)}
 
 
 @dataclass(frozen=True, eq=False)
-class Program:
+class NonlinearProgram:
     """A nonlinear program: its unknowns are the inputs, states and slacks of the horizon, each in its typical size.
 
     Attributes:
@@ -77,7 +77,7 @@ def program(
     steps: int,
     method: str,
     iterations: int,
-) -> Program:
+) -> NonlinearProgram:
     """The program of a horizon; its parameters are state, time, last inputs, references and given inputs.
 
     Arguments:
@@ -137,7 +137,7 @@ def program(
         states = np.tile(of / size, steps * points)
         return np.concatenate([still, states, np.zeros(len(bounded) * steps)])
 
-    return Program(
+    return NonlinearProgram(
         ca.nlpsol("mpc", "ipopt", nlp, options),
         ca.Function("plan", [unknowns, parameters], [u * unit, ends, seen]),
         {"lbx": low["x"], "ubx": high["x"], "lbg": low["g"], "ubg": high["g"]},

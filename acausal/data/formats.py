@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypedDict, Unpack
 from acausal.data import readers
 from acausal.data.by_signal import Choices
 from acausal.data.given_columns import Missing
-from acausal.data.readers import Selection, Table
+from acausal.data.readers import Selection, SignalTable
 from acausal.errors import DataError, nearest
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class Formats(ABC):
 
     @classmethod
     @abstractmethod
-    def _of_table(cls, table: Table, options: Mapping[str, Any]) -> Self:
+    def _of_table(cls, table: SignalTable, options: Mapping[str, Any]) -> Self:
         """The record of a table."""
 
     @classmethod
@@ -216,7 +216,7 @@ class Formats(ABC):
         cls,
         function: str,
         path: object,
-        reader: Callable[[Path, Selection], Table | dict[str, Table]],
+        reader: Callable[[Path, Selection], SignalTable | dict[str, SignalTable]],
         options: Mapping[str, Any],
         time: str = "time",
         group: str | None = None,
@@ -237,7 +237,7 @@ class Formats(ABC):
 
     @classmethod
     def _of_tables(
-        cls, tables: Table | dict[str, Table], options: Mapping[str, Any]
+        cls, tables: SignalTable | dict[str, SignalTable], options: Mapping[str, Any]
     ) -> Self | dict[str, Self]:
         if isinstance(tables, dict):
             return {run: cls._of_table(table, options) for run, table in tables.items()}

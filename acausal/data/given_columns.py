@@ -12,7 +12,7 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import need_known
-from acausal.data.readers import Table, is_data_frame, need_unique, seconds
+from acausal.data.readers import SignalTable, is_data_frame, need_unique, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.data.time_bases import on_rows, union
 from acausal.errors import DataError, listing, nearest, shown
@@ -76,7 +76,7 @@ def columns_of(
     return merged, columns, "nan" if with_gaps else "refuse"
 
 
-def check_table(table: Table, missing: Missing) -> None:
+def check_table(table: SignalTable, missing: Missing) -> None:
     """Refuse samples of a file as `columns_of` does, but name their lines.
 
     Raises:

@@ -22,7 +22,7 @@ from acausal.data.by_signal import (
 )
 from acausal.data.formats import Formats
 from acausal.data.given_columns import Missing, check_table, columns_of
-from acausal.data.readers import Table, frame_units, is_data_frame
+from acausal.data.readers import SignalTable, frame_units, is_data_frame
 from acausal.data.samples import is_uniform
 from acausal.data.signal import Beyond, Interpolation, Signal
 from acausal.errors import DataError, listing, nearest, shown, user_level
@@ -133,7 +133,7 @@ class Data(ByName, Formats):
         return cls(record["time"], {n: v for n, v in record.items() if n != "time"})
 
     @classmethod
-    def _of_table(cls, table: Table, options: Mapping[str, Any]) -> Data:
+    def _of_table(cls, table: SignalTable, options: Mapping[str, Any]) -> Data:
         missing = options.get("missing", "refuse")
         try:
             check_table(table, missing)

@@ -25,7 +25,7 @@ from acausal.codegen import (
     ZERO,
     Accumulate,
     Arguments,
-    Formula,
+    ArrayFormula,
     Gather,
     Instruction,
     Packed,
@@ -44,7 +44,7 @@ from acausal.modeling import time
 class _Part:
     """A formula or a sum, and the array that it fills; its other symbols are unknown."""
 
-    formula: Formula | Accumulate
+    formula: ArrayFormula | Accumulate
     fills: int | None = None
 
     @property
@@ -55,12 +55,12 @@ class _Part:
     @property
     def expression(self) -> sp.Expr:
         """That of a formula; nothing for a sum, which has no edges of its own."""
-        return self.formula.expression if isinstance(self.formula, Formula) else sp.S.Zero
+        return self.formula.expression if isinstance(self.formula, ArrayFormula) else sp.S.Zero
 
     @property
     def arguments(self) -> Arguments:
         """Those of a formula."""
-        return self.formula.arguments if isinstance(self.formula, Formula) else Arguments()
+        return self.formula.arguments if isinstance(self.formula, ArrayFormula) else Arguments()
 
     def is_known(self, known: set[int]) -> bool:
         """Whether the value follows from time, parameters and known arrays."""
@@ -190,7 +190,7 @@ class Edges(LeavesCaches):
 
 def _parts(instruction: Instruction, first: int) -> Iterator[_Part]:
     """The formulas of an instruction; unknowns of loops stay unknown."""
-    if isinstance(instruction, Formula | Accumulate):
+    if isinstance(instruction, ArrayFormula | Accumulate):
         yield _Part(instruction, first)
     elif isinstance(instruction, SolveTornLoop):
         outer, n = instruction.arguments, instruction.outputs
@@ -203,10 +203,10 @@ def _parts(instruction: Instruction, first: int) -> Iterator[_Part]:
                 tuple((s, own[p][1]) for s, p in places.items() if begin <= p < end)
                 for begin, end in pairwise(ends)
             ]
-            yield _Part(Formula(f.expression, Arguments(*parts), instruction.size))
+            yield _Part(ArrayFormula(f.expression, Arguments(*parts), instruction.size))
     else:
         for f in instruction.formulas:
-            yield _Part(Formula(f.residual, f.arguments, f.size))
+            yield _Part(ArrayFormula(f.residual, f.arguments, f.size))
 
 
 class _Point:

@@ -12,7 +12,7 @@ from functools import cached_property, partial
 import numpy as np
 import sympy as sp
 
-from acausal.codegen import DISCRETE, STATES, Formula, ParameterLayout, Program, formula_of
+from acausal.codegen import DISCRETE, STATES, ArrayFormula, ParameterLayout, Program, formula_of
 from acausal.flattening import GuardGroup, Integers, LeavesCaches, UpdateGroup
 from acausal.modeling import time
 from acausal.structure import ReducedModel
@@ -27,7 +27,7 @@ class Update:
         components: (n,) by number, which component states each. text: how.
     """
 
-    formula: Formula
+    formula: ArrayFormula
     places: Integers
     signs: Integers
     components: Integers

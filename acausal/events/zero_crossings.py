@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
-from acausal.codegen import DISCRETE, Arrays, Formula, Values, compute, run
+from acausal.codegen import DISCRETE, ArrayFormula, Arrays, Values, compute, run
 from acausal.events.event_formulas import Events, Update
 
 
@@ -91,7 +91,9 @@ def jumped(events: Events, now: Values, before: Values) -> Float[Array, " n_stat
     return x
 
 
-def _arrays(events: Events, formulas: Sequence[Formula], now: Values, before: Values) -> list[Any]:
+def _arrays(
+    events: Events, formulas: Sequence[ArrayFormula], now: Values, before: Values
+) -> list[Any]:
     """What the formulas read: the program's arrays now, and those before the event."""
     sources, program = {s for f in formulas for s in f.sources}, events.program
     return [
@@ -101,7 +103,7 @@ def _arrays(events: Events, formulas: Sequence[Formula], now: Values, before: Va
     ]
 
 
-def _value(formula: Formula, now: Values, arrays: Arrays, initial: ArrayLike = 0.0) -> Array:
+def _value(formula: ArrayFormula, now: Values, arrays: Arrays, initial: ArrayLike = 0.0) -> Array:
     return compute(formula, now.packed, arrays, now.t, initial).astype(now.x.dtype)
 
 

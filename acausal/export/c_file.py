@@ -19,8 +19,8 @@ from acausal.export.c_text.reserved import RESERVED
 from acausal.export.c_text.source import source
 from acausal.export.c_text.steps import scheme_named
 from acausal.export.c_text.target_text import target_header, target_source, target_text
-from acausal.export.c_text.text import Text
-from acausal.export.names import Run, runs
+from acausal.export.c_text.text import ModelText
+from acausal.export.names import NameRange, runs
 from acausal.export.needs import need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.export.target import target_of
@@ -109,7 +109,7 @@ def model_text(
     derivatives: bool,
     dtype: Any,
     watch: Watch | None = None,
-) -> Text:
+) -> ModelText:
     """What is written about a model; arguments as of `c`."""
     title = system.model._node.title or type(system.model).__name__
     chosen = _name(title, name)
@@ -127,9 +127,9 @@ def model_text(
     numbers = len(system.layout.free)
     entries = vector.entries
     parameters = _with_units([e.name for e in entries[:numbers]], system)
-    parameters += [(Run(e.name, "", None, e.first, 1, e.size), "") for e in entries[numbers:]]
+    parameters += [(NameRange(e.name, "", None, e.first, 1, e.size), "") for e in entries[numbers:]]
     start, start_d = _start(system, given)
-    return Text(
+    return ModelText(
         chosen, title, real, code, solver, scheme, vector,
         _states(system), _with_units(system.inputs, system),
         _with_units(wanted, system), parameters, start,
@@ -179,16 +179,16 @@ def _discrete(system: System) -> Iterator[str]:
         yield events.describe(place) if events and is_condition else system.reduced.name(node)
 
 
-def _states(system: System) -> list[tuple[Run, str]]:
+def _states(system: System) -> list[tuple[NameRange, str]]:
     """The states; the angles of closed loops are guesses, beside the angles themselves, which are computed."""
     n = system.reduced.n_independent
     guesses = enumerate(system.states[n:], n)
     return _with_units(system.states[:n], system) + [
-        (Run(f"guess({name})", "", None, i, 1, 1), system.unit(name)) for i, name in guesses
+        (NameRange(f"guess({name})", "", None, i, 1, 1), system.unit(name)) for i, name in guesses
     ]
 
 
-def _with_units(names: Sequence[str], system: System) -> list[tuple[Run, str]]:
+def _with_units(names: Sequence[str], system: System) -> list[tuple[NameRange, str]]:
     return [(run, system.unit(run.names[0])) for run in runs(names)]
 
 

@@ -30,7 +30,7 @@ from acausal.errors import (
 from acausal.export.c_file import model_text
 from acausal.export.c_text.header import header as header_in_c
 from acausal.export.c_text.source import source
-from acausal.export.c_text.text import Text
+from acausal.export.c_text.text import ModelText
 from acausal.export.fmu_text.binary import (
     PLATFORMS,
     Platform,
@@ -41,7 +41,12 @@ from acausal.export.fmu_text.binary import (
     this_platform,
 )
 from acausal.export.fmu_text.dependencies import dependencies
-from acausal.export.fmu_text.description import KINDS, Description, build_description, documentation
+from acausal.export.fmu_text.description import (
+    KINDS,
+    ModelDescription,
+    build_description,
+    documentation,
+)
 from acausal.export.fmu_text.header import model_header
 from acausal.export.fmu_text.variables import event_indicators, shown_by_others, variables
 from acausal.export.needs import need_exportable
@@ -129,7 +134,7 @@ def fmu(
 
 
 def _content(
-    text: Text,
+    text: ModelText,
     system: System,
     watch: Watch | None,
     inputs: Sequence[str],
@@ -149,7 +154,7 @@ def _content(
     found = variables(text, system, inputs, outputs, scalars)
     read = dependencies(text, system, found, np.zeros(0) if watch is None else watch.nodes)
     indicators = len(event_indicators(text))
-    without_token = Description(
+    without_token = ModelDescription(
         fmi, text.name, text.title, "", kinds, step, found, read, compiled, indicators, _experiment(system)
     )  # fmt: skip
     nominal = np.abs(system.reduced.nominal(system.reduced.states))
@@ -176,7 +181,7 @@ def _content(
 
 
 def _stable(
-    system: System, text: Text, params: Mapping[str, Any] | None, step: float, is_default: bool
+    system: System, text: ModelText, params: Mapping[str, Any] | None, step: float, is_default: bool
 ) -> float:
     """The step, or by default a shorter one, at which an explicit solver is stable at the start."""
     d = jnp.asarray(text.discrete_start) if text.has_events else None

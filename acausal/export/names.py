@@ -10,7 +10,7 @@ INDEX = re.compile(r"\[(\d+)\]")
 
 
 @dataclass(frozen=True)
-class Run:
+class NameRange:
     """Variables that are alike and lie evenly in an array.
 
     Attributes:
@@ -46,7 +46,7 @@ class Run:
         return range(self.first, self.first + self.stride * self.count, self.stride)
 
 
-def runs(names: Sequence[str]) -> list[Run]:
+def runs(names: Sequence[str]) -> list[NameRange]:
     """Groups of variables, in the order of their first ones.
 
     Arguments:
@@ -60,18 +60,18 @@ def runs(names: Sequence[str]) -> list[Run]:
         else:
             key = (name[: found.start()], name[found.end() :])
             groups.setdefault(key, []).append((int(found[1]), place))
-    result: list[Run] = []
+    result: list[NameRange] = []
     for (before, after), members in groups.items():
         if len(members) == 1 and before == names[members[0][1]]:
-            result.append(Run(before, "", None, members[0][1], 1, 1))
+            result.append(NameRange(before, "", None, members[0][1], 1, 1))
             continue
         result += _even(before, after, members)
     return sorted(result, key=lambda r: r.first)
 
 
-def _even(before: str, after: str, members: list[tuple[int, int]]) -> list[Run]:
+def _even(before: str, after: str, members: list[tuple[int, int]]) -> list[NameRange]:
     """The longest runs whose indices count up one by one and whose places are evenly apart."""
-    result: list[Run] = []
+    result: list[NameRange] = []
     start = 0
     while start < len(members):
         end, stride = start + 1, 1
@@ -86,8 +86,8 @@ def _even(before: str, after: str, members: list[tuple[int, int]]) -> list[Run]:
                 end += 1
         index, first = members[start]
         if end - start == 1:
-            result.append(Run(f"{before}[{index}]{after}", "", None, first, 1, 1))
+            result.append(NameRange(f"{before}[{index}]{after}", "", None, first, 1, 1))
         else:
-            result.append(Run(before, after, index, first, stride, end - start))
+            result.append(NameRange(before, after, index, first, stride, end - start))
         start = end
     return result

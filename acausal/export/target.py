@@ -14,7 +14,7 @@ from jax import Array, export as jax_export
 from jax.extend.core import ClosedJaxpr
 
 from acausal._jax import need_known
-from acausal.analysis import Memory, Observer
+from acausal.analysis import Observer, ObserverMemory
 from acausal.errors import DataError, nearest, need_compiled, shown
 from acausal.export.needs import all_parameters, need_exportable
 from acausal.modeling import Component, ModuleCall, Reference, names_in
@@ -23,7 +23,7 @@ from acausal.system import System
 
 
 @dataclass(frozen=True)
-class Port:
+class TargetPort:
     """An argument or a result.
 
     Attributes:
@@ -54,8 +54,8 @@ class Target:
 
     title: str
     call: Callable[..., tuple[Array, ...]]
-    inputs: tuple[Port, ...]
-    outputs: tuple[Port, ...]
+    inputs: tuple[TargetPort, ...]
+    outputs: tuple[TargetPort, ...]
 
     def batch(self) -> Callable[..., tuple[Array, ...]]:
         """The function of arrays with a leading dimension, except for parameters."""
@@ -176,12 +176,12 @@ def _of_system(
     outputs = names_in(outputs, "export: outputs")
     for name in outputs:
         system.unit(name)
-    ports = [Port("t", (), ("time",), ("s",))]
+    ports = [TargetPort("t", (), ("time",), ("s",))]
     ports += _vector("x", system.states, system) + _vector("u", system.inputs, system)
     start = system.program.discrete_start
     if len(start):
         names = tuple(system.reduced.name(int(i)) for i in system.reduced.discrete)
-        ports.append(Port("d", (len(start),), names, ("",) * len(names)))
+        ports.append(TargetPort("d", (len(start),), names, ("",) * len(names)))
     variables = len(ports)
     leaves, rebuild = _numbers(params) if parameters else ((), lambda _: params)
     ports += leaves
@@ -197,13 +197,13 @@ def _of_system(
         return (dx, y) if system.states else (y,)
 
     results = [
-        Port("der(x)", p.shape, tuple(f"der({n})" for n in p.elements), _rates(system))
+        TargetPort("der(x)", p.shape, tuple(f"der({n})" for n in p.elements), _rates(system))
         for p in ports
         if p.name == "x"
     ]
-    results += [Port("y", (len(outputs),), outputs, tuple(system.unit(n) for n in outputs))] * bool(
-        outputs
-    )
+    results += [
+        TargetPort("y", (len(outputs),), outputs, tuple(system.unit(n) for n in outputs))
+    ] * bool(outputs)
     if not results:
         raise DataError("export: the model has no states; name its outputs=[...].")
     return Target(type(system.model).__name__, _flat(call, results), tuple(ports), tuple(results))
@@ -218,21 +218,21 @@ def _of_observer(observer: Observer, outputs: tuple[str, ...]) -> Target:
     step = observer.step_of_arrays
     system, names, start = step.model.system, step.names, step.start
     units = tuple(map(system.unit, names))
-    ports = [Port("t", (), ("time",), ("s",)), *_vector("u", system.inputs, system)]
+    ports = [TargetPort("t", (), ("time",), ("s",)), *_vector("u", system.inputs, system)]
     ports += _vector("y", step.model.sensors, system)
     pairs = tuple(f"{a}, {b}" for a in names for b in names)
     products = tuple(f"{a} {b}".strip() for a in units for b in units)
     remembered = [
-        Port("t_before", (), ("time",), ("s",), np.asarray(start.t)),
+        TargetPort("t_before", (), ("time",), ("s",), np.asarray(start.t)),
         *(replace(p, name="u_before", default=np.asarray(start.u)) for p in ports if p.name == "u"),
-        Port("mean", (len(names),), names, units, np.asarray(start.mean)),
-        Port("covariance", (len(names),) * 2, pairs, products, np.asarray(start.covariance)),
+        TargetPort("mean", (len(names),), names, units, np.asarray(start.mean)),
+        TargetPort("covariance", (len(names),) * 2, pairs, products, np.asarray(start.covariance)),
     ]
 
     def call(*arrays: Array) -> tuple[Array, ...]:
         given = dict(zip([p.name for p in (*ports, *remembered)], arrays, strict=True))
         nothing = jnp.zeros(0)
-        before = Memory(
+        before = ObserverMemory(
             given["t_before"], given.get("u_before", nothing), given["mean"], given["covariance"]
         )
         after = step.after(before, given["t"], given.get("u", nothing), given["y"])
@@ -264,9 +264,9 @@ def _of_network(
             f"export: {shown(network, 40)} cannot be called with {len(inputs)} numbers ({reason}); name its arguments: "
             "inputs=('s_rel',)"
         ) from None
-    ports = tuple(Port(n, (), (n,), (units.get(n, ""),)) for n in inputs)
+    ports = tuple(TargetPort(n, (), (n,), (units.get(n, ""),)) for n in inputs)
     elements = (output,) if not shape else tuple(f"{output}[{i + 1}]" for i in range(shape[0]))
-    result = Port(output, shape, elements, (units.get(output, ""),) * len(elements))
+    result = TargetPort(output, shape, elements, (units.get(output, ""),) * len(elements))
     kind = "energy's law" if isinstance(network, EnergyLaw) else "law"
     return Target(f"{kind} {network!r}"[:200], lambda *a: (law(*a),), ports, (result,))
 
@@ -306,9 +306,9 @@ def traced(target: Target, batch: str | None, function: str) -> ClosedJaxpr:
     return jax.make_jaxpr(call)(*arguments(target, batch, function))
 
 
-def _vector(name: str, elements: tuple[str, ...], system: System) -> list[Port]:
+def _vector(name: str, elements: tuple[str, ...], system: System) -> list[TargetPort]:
     units = tuple(system.unit(e) for e in elements)
-    return [Port(name, (len(elements),), elements, units)] if elements else []
+    return [TargetPort(name, (len(elements),), elements, units)] if elements else []
 
 
 def _rates(system: System) -> tuple[str, ...]:
@@ -316,7 +316,7 @@ def _rates(system: System) -> tuple[str, ...]:
 
 
 def _flat(
-    call: Callable[..., tuple[Array, ...]], results: Sequence[Port]
+    call: Callable[..., tuple[Array, ...]], results: Sequence[TargetPort]
 ) -> Callable[..., tuple[Array, ...]]:
     return lambda *arrays: tuple(
         jnp.reshape(a, p.shape) for a, p in zip(call(*arrays), results, strict=True)
@@ -325,16 +325,16 @@ def _flat(
 
 def _numbers(
     params: Mapping[str, Any],
-) -> tuple[list[Port], Callable[[Sequence[Array]], dict[str, Any]]]:
+) -> tuple[list[TargetPort], Callable[[Sequence[Array]], dict[str, Any]]]:
     """Parameters and weights as arguments, and how the parameters are built from them."""
     found, tree = jax.tree_util.tree_flatten_with_path(dict(params))
-    ports: list[Port] = []
+    ports: list[TargetPort] = []
     places: list[int] = []
     for place, (path, leaf) in enumerate(found):
         if isinstance(leaf, float | int | np.ndarray | np.number | jax.Array):
             name = "".join(_key(path))
             value = np.asarray(leaf, dtype=float)
-            ports.append(Port(name, value.shape, (name,), ("",), value))
+            ports.append(TargetPort(name, value.shape, (name,), ("",), value))
             places.append(place)
     leaves = [leaf for _, leaf in found]
 

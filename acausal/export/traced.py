@@ -74,7 +74,7 @@ def _is_known(equation: Equation, arguments: Sequence[Any]) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class Value:
+class TracedValue:
     """An array that an operation gives, or an argument.
 
     Attributes:
@@ -91,7 +91,7 @@ class Value:
 
 
 @dataclass(frozen=True, eq=False)
-class Constant:
+class TracedConstant:
     """An array that is known when a function is exported."""
 
     array: np.ndarray
@@ -107,11 +107,11 @@ class Constant:
         return kind_of(self.array.dtype)
 
 
-Atom: TypeAlias = Value | Constant
+Atom: TypeAlias = TracedValue | TracedConstant
 
 
 @dataclass(frozen=True, eq=False)
-class Operation:
+class TracedOperation:
     """One operation.
 
     Attributes:
@@ -121,32 +121,32 @@ class Operation:
 
     name: str
     inputs: tuple[Atom, ...]
-    outputs: tuple[Value, ...]
+    outputs: tuple[TracedValue, ...]
     params: Mapping[str, Any]
     origin: str = ""
 
 
 @dataclass(frozen=True, eq=False)
-class Block:
+class TracedBlock:
     """Operations, one after the other.
 
     Attributes:
         inputs: arguments. operations: in an order in which they can be done. outputs: results.
     """
 
-    inputs: tuple[Value, ...]
-    operations: tuple[Operation, ...]
+    inputs: tuple[TracedValue, ...]
+    operations: tuple[TracedOperation, ...]
     outputs: tuple[Atom, ...]
 
-    def part(self, outputs: Iterable[Atom]) -> Block:
+    def part(self, outputs: Iterable[Atom]) -> TracedBlock:
         """The same with these results, and without operations that reach none of them."""
         results = tuple(outputs)
-        wanted, kept = set(results), list[Operation]()
+        wanted, kept = set(results), list[TracedOperation]()
         for operation in reversed(self.operations):
             if not wanted.isdisjoint(operation.outputs):
                 kept.append(operation)
                 wanted.update(operation.inputs)
-        return Block(self.inputs, tuple(reversed(kept)), results)
+        return TracedBlock(self.inputs, tuple(reversed(kept)), results)
 
 
 def kind_of(dtype: Any) -> str:
@@ -162,32 +162,32 @@ def kind_of(dtype: Any) -> str:
     return kinds[code]
 
 
-def trace(function: Callable[..., Any], *arguments: Any) -> Block:
+def trace(function: Callable[..., Any], *arguments: Any) -> TracedBlock:
     """The operations of a function of arrays; what does not reach a result is left out."""
     return block_of(jax.make_jaxpr(function)(*arguments))
 
 
-def block_of(closed: ClosedJaxpr) -> Block:
+def block_of(closed: ClosedJaxpr) -> TracedBlock:
     """The operations of a closed jaxpr."""
-    operations: list[Operation] = []
-    constants: dict[int, Constant] = {}
+    operations: list[TracedOperation] = []
+    constants: dict[int, TracedConstant] = {}
 
     def atom(value: Any) -> Atom:
         known = isinstance(value, np.ndarray)
-        return constants.setdefault(id(value), Constant(value)) if known else value
+        return constants.setdefault(id(value), TracedConstant(value)) if known else value
 
     def apply(equation: Equation, arguments: list[Any], origin: str) -> Sequence[Any]:
         name = name_of(equation)
         if name in SAME:
             return arguments
         inputs, outputs = tuple(map(atom, arguments)), tuple(map(_value, equation.outvars))
-        operations.append(Operation(name, inputs, outputs, equation.params, origin))
+        operations.append(TracedOperation(name, inputs, outputs, equation.params, origin))
         return outputs
 
     inputs = tuple(map(_value, closed.jaxpr.invars))
     results = walk(closed, inputs, apply)
-    return Block(inputs, tuple(operations), ()).part(map(atom, results))
+    return TracedBlock(inputs, tuple(operations), ()).part(map(atom, results))
 
 
-def _value(variable: Any) -> Value:
-    return Value(tuple(variable.aval.shape), kind_of(variable.aval.dtype))
+def _value(variable: Any) -> TracedValue:
+    return TracedValue(tuple(variable.aval.shape), kind_of(variable.aval.dtype))

@@ -19,7 +19,7 @@ from acausal.system import System
 
 
 @dataclass(frozen=True)
-class Stored:
+class VectorEntry:
     """A parameter, or an array of a network.
 
     Attributes:
@@ -57,19 +57,21 @@ class ParameterVector:
         return [(n, *eqx.partition(self.params[n], eqx.is_inexact_array)) for n in names]
 
     @cached_property
-    def entries(self) -> tuple[Stored, ...]:
+    def entries(self) -> tuple[VectorEntry, ...]:
         """All that the vector holds, in its order."""
         layout = self.system.layout
-        found: list[Stored] = []
+        found: list[VectorEntry] = []
         for place in layout.order:
             declared = layout.model.layout.parameter_declaration(int(layout.free[place]))
             found.append(
-                Stored(layout.names[int(place)], len(found), (), declared.unit, declared.doc)
+                VectorEntry(layout.names[int(place)], len(found), (), declared.unit, declared.doc)
             )
         first = len(found)
         for name, arrays, _ in self._modules:
             for path, leaf in jax.tree_util.tree_flatten_with_path(arrays)[0]:
-                entry = Stored(f"{name}{jax.tree_util.keystr(path)}", first, leaf.shape, "", "")
+                entry = VectorEntry(
+                    f"{name}{jax.tree_util.keystr(path)}", first, leaf.shape, "", ""
+                )
                 found.append(entry)
                 first += entry.size
         return tuple(found)

@@ -18,9 +18,9 @@ from acausal.flattening.equation_group import (
 from acausal.flattening.layout import Layout, members_of_forms
 from acausal.flattening.origin import Origin
 from acausal.flattening.reading import read_statements
-from acausal.flattening.stated import Guard, Stated, Update, without_events
+from acausal.flattening.stated import GuardStatement, Stated, UpdateStatement, without_events
 from acausal.flattening.template import Integers
-from acausal.flattening.templates import Filled, Shape, SlotSource, Templates, route_to
+from acausal.flattening.templates import EquationShape, Filled, SlotSource, Templates, route_to
 from acausal.modeling import Component, Eq, Reference, charge
 
 
@@ -54,7 +54,7 @@ def instantiate(layout: Layout, statements: Sequence[Stated]) -> Instances:
     jumps: list[UpdateGroup] = []
     members = members_of_forms(layout)
     templates = Templates(layout)
-    shapes: list[list[Shape]] = []
+    shapes: list[list[EquationShape]] = []
     for form, stated in zip(layout.forms, statements, strict=True):
         shapes.append([_shape(templates, form.prototype, e) for e in stated.equations])
         for shape in shapes[-1]:
@@ -81,7 +81,7 @@ def instantiate(layout: Layout, statements: Sequence[Stated]) -> Instances:
     return Instances(tuple(equations[i] for i in order), tuple(initial), events, constants)
 
 
-def _shape(templates: Templates, owner: Component, stated: Any) -> Shape:
+def _shape(templates: Templates, owner: Component, stated: Any) -> EquationShape:
     """The shape of an equation of a component."""
     if not isinstance(stated, Eq):
         raise DeclarationError(
@@ -90,13 +90,16 @@ def _shape(templates: Templates, owner: Component, stated: Any) -> Shape:
     return templates.shape(owner, without_events(stated))
 
 
-def _equation(templates: Templates, shape: Shape, members: Integers) -> EquationGroup:
+def _equation(templates: Templates, shape: EquationShape, members: Integers) -> EquationGroup:
     """An equation as a template's residual, for all members."""
     return _fill(templates, templates.of(shape), Origin(Eq(*shape.sides), shape.owner), members)
 
 
 def _group(
-    templates: Templates, owner: Component, stated: Guard | Update, members: Integers
+    templates: Templates,
+    owner: Component,
+    stated: GuardStatement | UpdateStatement,
+    members: Integers,
 ) -> tuple[EquationGroup, tuple[bool, ...]]:
     """An expression as a template's residual, for all members; and which slots take values before an event."""
     filled = templates.of(templates.shape(owner, stated.value, stated.text))

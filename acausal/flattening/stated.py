@@ -45,7 +45,7 @@ ROUNDING = sp.Float(1e-9)
 
 
 @dataclass(frozen=True)
-class Guard:
+class GuardStatement:
     """``target`` is 1 where ``value > 0`` (or ``>= 0`` unless ``strict``), else 0; steps end where that changes.
 
     Attributes:
@@ -61,7 +61,7 @@ class Guard:
 
 
 @dataclass(frozen=True)
-class Update:
+class UpdateStatement:
     """``target = value`` at every event; of a state, what it jumps to."""
 
     target: Reference
@@ -81,9 +81,9 @@ class Stated:
     """
 
     equations: tuple[Eq, ...]
-    guards: tuple[Guard, ...] = ()
-    updates: tuple[Update, ...] = ()
-    jumps: tuple[Update, ...] = ()
+    guards: tuple[GuardStatement, ...] = ()
+    updates: tuple[UpdateStatement, ...] = ()
+    jumps: tuple[UpdateStatement, ...] = ()
     hidden: tuple[tuple[str, Discrete], ...] = ()
     silent: tuple[Silent, ...] = ()
 
@@ -124,9 +124,13 @@ def with_events(component: Component, stated: Sequence[Any]) -> Stated:
 @dataclass
 class _Sorting:
     component: Component
-    guards: list[Guard] = field(default_factory=list[Guard])
-    updates: dict[Reference, Update] = field(default_factory=dict[Reference, Update])
-    jumps: dict[Reference, Update] = field(default_factory=dict[Reference, Update])
+    guards: list[GuardStatement] = field(default_factory=list[GuardStatement])
+    updates: dict[Reference, UpdateStatement] = field(
+        default_factory=dict[Reference, UpdateStatement]
+    )
+    jumps: dict[Reference, UpdateStatement] = field(
+        default_factory=dict[Reference, UpdateStatement]
+    )
     hidden: list[tuple[str, Discrete]] = field(default_factory=list[tuple[str, Discrete]])
     known: dict[Any, Reference] = field(default_factory=dict[Any, Reference])
 
@@ -174,7 +178,7 @@ class _Sorting:
         if key not in self.known:
             reference = self.known[key] = self._new(kind)
             text = str(key[-1] if isinstance(key, tuple) else key)
-            self.updates[reference] = Update(reference, value, text)
+            self.updates[reference] = UpdateStatement(reference, value, text)
         return self.known[key]
 
     def _update(self, target: Reference, value: sp.Expr, text: str) -> None:
@@ -183,7 +187,7 @@ class _Sorting:
                 f"{self.component._node.label}: two equations give the discrete variable '{target.path}': "
                 f"{self.updates[target].text}, and {text}"
             )
-        self.updates[target] = Update(target, value, text)
+        self.updates[target] = UpdateStatement(target, value, text)
 
     # -- when --------------------------------------------------------------------------------------
 
@@ -217,7 +221,7 @@ class _Sorting:
                     f"{self.component._node.label}: two When(...) make '{state.path}' jump; join them by otherwise="
                 )
             value = sp.Piecewise(*some, (state, True))
-            self.jumps[state] = Update(state, value, str(when))
+            self.jumps[state] = UpdateStatement(state, value, str(when))
 
     def _comes_true(self, when: When) -> Any:
         """The condition under which it happens, in terms of hidden variables."""
@@ -290,7 +294,7 @@ class _Sorting:
             value: Any = lhs - rhs if above else rhs - lhs
             strict = isinstance(relation, sp.Gt | sp.Lt)
             target = self.known[relation] = self._new("bool")
-            self.guards.append(Guard(target, self._ticking(value), strict, str(relation)))
+            self.guards.append(GuardStatement(target, self._ticking(value), strict, str(relation)))
         return self.known[relation]
 
     def _floor(self, number: Any, _: Any) -> Reference:
@@ -307,7 +311,7 @@ class _Sorting:
             passed: list[Any] = []
             for end in ends:
                 passed.append(r := self._new("bool"))
-                self.guards.append(Guard(r, number - end, False, f"floor({number})"))
+                self.guards.append(GuardStatement(r, number - end, False, f"floor({number})"))
             up = sp.Or(
                 *(
                     sp.And(sp.Gt(e, before), sp.Gt(r, HALF))
@@ -326,7 +330,7 @@ class _Sorting:
                 (sp.Min(before - 1, sp.floor(number)), down),
                 (before, True),
             )
-            self.updates[n] = Update(n, value, f"floor({number})")
+            self.updates[n] = UpdateStatement(n, value, f"floor({number})")
         return self.known[key]
 
     def _ticking(self, expression: Any) -> Any:
@@ -342,7 +346,7 @@ class _Sorting:
             r, count = self._new("bool"), self._new("int")
             now = self.known[tick] = self._new("bool")
             due = time - (tick.start + Previous(count) * tick.period)
-            self.guards.append(Guard(r, due, False, str(tick), ticks=True))
+            self.guards.append(GuardStatement(r, due, False, str(tick), ticks=True))
             just = sp.And(sp.Gt(r, HALF), sp.Le(Previous(r), HALF))
             passed = sp.Max(0, sp.ceiling((time - tick.start) / tick.period - ROUNDING))
             if (
@@ -352,8 +356,8 @@ class _Sorting:
             counted = sp.Piecewise(
                 (passed, sp.Gt(INITIAL, HALF)), (Previous(count) + 1, just), (Previous(count), True)
             )
-            self.updates[count] = Update(count, counted, str(tick))
-            self.updates[now] = Update(now, sp.Piecewise((1, just), (0, True)), str(tick))
+            self.updates[count] = UpdateStatement(count, counted, str(tick))
+            self.updates[now] = UpdateStatement(now, sp.Piecewise((1, just), (0, True)), str(tick))
         return self.known[tick]
 
     def _new(self, kind: Any) -> Reference:

@@ -55,7 +55,7 @@ EXACT = 2**53
 
 
 @dataclass(frozen=True)
-class Shape:
+class EquationShape:
     """An equation, taken apart.
 
     Attributes:
@@ -117,7 +117,9 @@ class Templates:
         self._known: dict[Hashable, _Read] = {}
         self._variants: dict[Hashable, set[tuple[Number, ...]]] = {}
 
-    def shape(self, owner: Component, stated: Eq | sp.Expr, text: str | None = None) -> Shape:
+    def shape(
+        self, owner: Component, stated: Eq | sp.Expr, text: str | None = None
+    ) -> EquationShape:
         """An equation, or an expression, taken apart.
 
         Arguments:
@@ -155,9 +157,9 @@ class Templates:
             return node.func, tuple([tree(a, lifts, is_term) for a in node.args])
 
         trees = tuple([tree(side, True, True) for side in sides])
-        return Shape(owner, sides, trees, tuple(numbers), found, where)
+        return EquationShape(owner, sides, trees, tuple(numbers), found, where)
 
-    def count(self, shape: Shape) -> None:
+    def count(self, shape: EquationShape) -> None:
         """Count the numbers of an equation as a variant of its shape."""
         self._variants.setdefault(shape.key, set()).add(shape.numbers)
 
@@ -166,7 +168,7 @@ class Templates:
         first = int(self.layout.parameter_base[-1])
         return first + self.constants.setdefault(number, len(self.constants))
 
-    def of(self, shape: Shape) -> Filled:
+    def of(self, shape: EquationShape) -> Filled:
         """The template of an equation, or with an expression as residual.
 
         Raises:
@@ -229,7 +231,7 @@ def route_to(owner: Component, reference: Reference, where: Callable[[], str]) -
     return names
 
 
-def _read(shape: Shape, is_lifted: bool) -> _Read:
+def _read(shape: EquationShape, is_lifted: bool) -> _Read:
     """The template of ``left = right``, or with one side as residual; with constants in the place of its numbers."""
     where, routes = shape.where, shape.references
     constants = [sp.Symbol(f"#{i}", positive=True) for i, _ in enumerate(shape.numbers)]
@@ -268,7 +270,7 @@ def _read(shape: Shape, is_lifted: bool) -> _Read:
     return _Read(interned(template), *places, previous=tuple(previous.values()))
 
 
-def _with_constants(shape: Shape, constants: Sequence[sp.Symbol]) -> list[Any]:
+def _with_constants(shape: EquationShape, constants: Sequence[sp.Symbol]) -> list[Any]:
     """The sides of an equation with constants in the place of its numbers."""
     references = list(shape.references)
 

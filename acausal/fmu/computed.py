@@ -11,9 +11,9 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.fmu.archive import read
 from acausal.fmu.description import STRUCTURAL
-from acausal.fmu.histories import KEPT, After, Event, Histories
+from acausal.fmu.histories import KEPT, AfterEvent, Histories, PastEvent
 from acausal.fmu.instance import Instance
-from acausal.fmu.library import BYTES, DiscardError, Library, Variables
+from acausal.fmu.library import BYTES, DiscardError, SharedLibrary, Variables
 from acausal.fmu.part import Part
 
 
@@ -43,7 +43,7 @@ class Computed:
         sizes = tuple(s for s in part.settings if known[s[0]].causality == STRUCTURAL)
         key = part.digest, part.kind, sizes
         if key not in _LIBRARIES:
-            _LIBRARIES[key] = Library(self.description, folder, part.kind)
+            _LIBRARIES[key] = SharedLibrary(self.description, folder, part.kind)
         self._library = _LIBRARIES[key]
         self._lock = RLock()
         most = 1 if self.description.once else max(KEPT, 4 * (part.n_parameters + 1))
@@ -70,7 +70,7 @@ class Computed:
         """An instance without a history."""
         raise NotImplementedError
 
-    def _go(self, instance: Instance, event: Event) -> After:
+    def _go(self, instance: Instance, event: PastEvent) -> AfterEvent:
         """What is behind an event."""
         raise NotImplementedError
 
@@ -95,4 +95,4 @@ class Computed:
         return int(history)
 
 
-_LIBRARIES: dict[tuple[str, str, tuple[tuple[str, Any], ...]], Library] = {}
+_LIBRARIES: dict[tuple[str, str, tuple[tuple[str, Any], ...]], SharedLibrary] = {}

@@ -13,7 +13,7 @@ import numpy as np
 
 from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import Differentiated
-from acausal.fmu.histories import After, Event
+from acausal.fmu.histories import AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DISCARD, FATAL, FMUError
 from acausal.fmu.part import Part
@@ -147,7 +147,7 @@ class Stepped(Computed):
         made.values = parameters
         return made
 
-    def _go(self, instance: Instance, event: Event) -> After:
+    def _go(self, instance: Instance, event: PastEvent) -> AfterEvent:
         """A communication step, or new inputs; those of the start are initial values, too."""
         assert isinstance(instance, Slave)
         if not event.timed:
@@ -157,12 +157,12 @@ class Stepped(Computed):
                 instance.free()
                 instance.make()
                 instance.start(event.time, instance.values, event.inputs)
-            return After(0, np.inf, b"", 0)
+            return AfterEvent(0, np.inf, b"", 0)
         if instance.started:
             instance.advance(event.time)
         else:
             instance.start(event.time, instance.values, b"")
-        return After(0, np.inf, self._outputs(instance, event.time).tobytes(), 0)
+        return AfterEvent(0, np.inf, self._outputs(instance, event.time).tobytes(), 0)
 
     def _outputs(self, instance: Slave, time: float) -> Any:
         found = np.zeros(self._results.size)
@@ -184,7 +184,7 @@ class Stepped(Computed):
         with self._lock:
             before, time = self._history(at), C.c_double.from_address(at).value
             known = self._histories.events
-            event = Event(before, time, b"", b"", b"", timed=True)
+            event = PastEvent(before, time, b"", b"", b"", timed=True)
             there = known[before].time == time
             if there:  # the step that led there
                 event = known[before]
@@ -200,7 +200,7 @@ class Stepped(Computed):
         """The number of the history behind new inputs."""
         with self._lock:
             before, time = self._history(at), C.c_double.from_address(at).value
-            event = Event(before, time, b"", self._values_of_inputs(at), b"", timed=False)
+            event = PastEvent(before, time, b"", self._values_of_inputs(at), b"", timed=False)
             after = self._histories.after(self._values_of_parameters(at), event)
             C.c_double.from_address(into).value = after.history
         return 0

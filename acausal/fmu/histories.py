@@ -20,7 +20,7 @@ RESULTS = 65_536
 """Events of which what is behind them is kept."""
 
 
-class Event(NamedTuple):
+class PastEvent(NamedTuple):
     """An event that an FMU has gone through.
 
     Attributes:
@@ -36,7 +36,7 @@ class Event(NamedTuple):
     timed: bool
 
 
-class After(NamedTuple):
+class AfterEvent(NamedTuple):
     """What is behind an event: number of the history, next time event, numbers; and how often it was shifted.
 
     Attributes:
@@ -62,13 +62,13 @@ class Histories:
         self,
         most: int,
         begin: Callable[[bytes, Instance | None], Instance],
-        go: Callable[[Instance, Event], After],
+        go: Callable[[Instance, PastEvent], AfterEvent],
     ) -> None:
         self._most, self._begin, self._go = most, begin, go
         self._instances: OrderedDict[tuple[bytes, int], Instance] = OrderedDict()
-        self.events: list[Event] = [Event(-1, -float("inf"), b"", b"", b"", False)]
-        self._numbers: dict[Event, int] = {}
-        self._afters: OrderedDict[tuple[bytes, Event], After] = OrderedDict()
+        self.events: list[PastEvent] = [PastEvent(-1, -float("inf"), b"", b"", b"", False)]
+        self._numbers: dict[PastEvent, int] = {}
+        self._afters: OrderedDict[tuple[bytes, PastEvent], AfterEvent] = OrderedDict()
         finalize(self, _free_all, self._instances)
 
     def instance(self, parameters: bytes, history: int) -> Instance:
@@ -84,7 +84,7 @@ class Histories:
 
     def _again(self, parameters: bytes, history: int) -> Instance:
         """An instance that goes through a history, from where one has come already if possible."""
-        chain: list[Event] = []
+        chain: list[PastEvent] = []
         while history > 0 and (parameters, history) not in self._instances:
             chain.append(self.events[history])
             history = self.events[history].before
@@ -97,7 +97,7 @@ class Histories:
         return self._through(parameters, instance, reversed(chain))[0]
 
     def _through(
-        self, parameters: bytes, instance: Instance, events: Iterable[Event]
+        self, parameters: bytes, instance: Instance, events: Iterable[PastEvent]
     ) -> tuple[Instance, int]:
         """The instance behind some events, and the number of its history; what is behind each of them is kept."""
         history = 0
@@ -114,7 +114,7 @@ class Histories:
             raise
         return instance, history
 
-    def after(self, parameters: bytes, event: Event) -> After:
+    def after(self, parameters: bytes, event: PastEvent) -> AfterEvent:
         """What is behind an event. The instance before it goes through it."""
         key = parameters, event
         if (known := self._afters.get(key)) is not None:
@@ -123,7 +123,7 @@ class Histories:
         same = (last.time, last.inputs, last.signs) == (event.time, event.inputs, event.signs)
         instance = self.instance(parameters, event.before)
         if same:  # it has gone through this event
-            return self._keep(key, After(event.before, instance.due, event.states, 0))
+            return self._keep(key, AfterEvent(event.before, instance.due, event.states, 0))
         del self._instances[parameters, event.before]
         _, history = self._through(parameters, instance, [event])
         if (old := self._instances.pop((parameters, history), None)) is not None:
@@ -131,7 +131,7 @@ class Histories:
         self._instances[parameters, history] = instance
         return self._afters[key]
 
-    def _keep(self, key: tuple[bytes, Event], after: After) -> After:
+    def _keep(self, key: tuple[bytes, PastEvent], after: AfterEvent) -> AfterEvent:
         self._afters[key] = after
         if len(self._afters) > RESULTS:
             self._afters.popitem(last=False)

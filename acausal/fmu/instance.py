@@ -19,7 +19,7 @@ from acausal.fmu.library import (
     WARNING,
     DiscardError,
     FMUError,
-    Library,
+    SharedLibrary,
     Variables,
     kind_of,
 )
@@ -45,7 +45,7 @@ class Instance:
 
     def __init__(
         self,
-        library: Library,
+        library: SharedLibrary,
         settings: Settings,
         parameters: Variables,
         inputs: Variables,

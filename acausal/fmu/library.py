@@ -82,7 +82,7 @@ _MESSAGES: dict[bytes, deque[str]] = {}
 """What instances have logged, by their name: fmpy's proxy calls the logger that was registered last."""
 
 
-class Library:
+class SharedLibrary:
     """The loaded library of an FMU.
 
     Attributes:

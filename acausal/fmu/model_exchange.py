@@ -11,7 +11,7 @@ from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import Differentiated, Numbers
 from acausal.fmu.description import REAL
 from acausal.fmu.exchange import Exchange
-from acausal.fmu.histories import After, Event
+from acausal.fmu.histories import AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DiscardError, FMUError
 from acausal.fmu.part import Part
@@ -82,7 +82,7 @@ class Evaluated(Computed):
         self._firsts[parameters] = instance.due, states.tobytes()
         return instance
 
-    def _go(self, instance: Instance, event: Event) -> After:
+    def _go(self, instance: Instance, event: PastEvent) -> AfterEvent:
         """An event, shifted until the indicators have the signs that it is for."""
         assert isinstance(instance, Exchange)
         due = instance.due
@@ -106,7 +106,7 @@ class Evaluated(Computed):
         found = instance.happen(time)
         if found.jumped:
             instance.states(states.ctypes.data)
-        return After(0, min(found.next, NEVER), states.tobytes(), nudges)
+        return AfterEvent(0, min(found.next, NEVER), states.tobytes(), nudges)
 
     # -- functions ---------------------------------------------------------------------------------
 
@@ -134,7 +134,7 @@ class Evaluated(Computed):
         number = C.c_double.from_address
         n, signs = self.part.n, self.description.indicators * BYTES
         with self._lock:
-            event = Event(
+            event = PastEvent(
                 self._history(at),
                 number(at).value,
                 C.string_at(at + self._at_states, n * BYTES),

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 from acausal._jax import array, compiled
 from acausal.codegen import (
     Arguments,
-    Formula,
+    ArrayFormula,
     Packed,
     ParameterLayout,
     Program,
@@ -155,12 +155,12 @@ class Conditions(LeavesCaches):
         for (expression, symbols), found in groups.items():
             rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
             read = zip(symbols, map(self.parameters.gather, arguments.T), strict=True)
-            formula = Formula(expression, Arguments(parameters=tuple(read)), len(rows))
+            formula = ArrayFormula(expression, Arguments(parameters=tuple(read)), len(rows))
             x = x.at[rows].set(compute(formula, packed))
         return x * np.asarray([sign for _, sign in members], dtype=float)
 
     @cached_property
-    def _initial(self) -> tuple[Formula, ...]:
+    def _initial(self) -> tuple[ArrayFormula, ...]:
         """The initial equations; derivatives are read in further copies of the program's arrays."""
         return tuple(
             formula_of(

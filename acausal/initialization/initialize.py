@@ -39,7 +39,7 @@ INDEPENDENT = 1e-9
 
 
 @dataclass(frozen=True)
-class Plan:
+class InitializationProblem:
     """One initialization problem: which states may change, and which conditions they must meet.
 
     Attributes:
@@ -208,7 +208,7 @@ class Initializer(LeavesCaches):
         given: Mapping[str, ArrayLike],
         steady: bool | Sequence[str],
         least_squares: bool,
-    ) -> tuple[Array, Plan | None]:
+    ) -> tuple[Array, InitializationProblem | None]:
         """The states to begin with, and the conditions that remain to be met, if any."""
         x: Any = self.conditions.starts(packed)
         is_known = not traced(x, list(given.values()))
@@ -236,7 +236,7 @@ class Initializer(LeavesCaches):
         nodes = self.reduced.states[is_given]
         starts = [*(self.conditions.own if least_squares else ()), *self.conditions.further]
         moved = ~is_given & is_own if least_squares else at_will
-        plan = Plan(
+        plan = InitializationProblem(
             tuple(np.flatnonzero(moved).tolist()),
             tuple(c for c in starts if c.node not in nodes),
             tuple(np.flatnonzero(resting).tolist()),
@@ -296,7 +296,7 @@ class Initializer(LeavesCaches):
 
         return closed
 
-    def _found(self, plan: Plan, start: Values) -> tuple[Array, Array, Array]:
+    def _found(self, plan: InitializationProblem, start: Values) -> tuple[Array, Array, Array]:
         """The states, the residuals of the conditions, and their Jacobian by the states that moved."""
         x, rest, jacobian = self._satisfied(plan, start)
         if not plan.least_squares and not traced(rest):
@@ -304,11 +304,11 @@ class Initializer(LeavesCaches):
         return x, rest, jacobian
 
     @cached_property
-    def _satisfied(self) -> Callable[[Plan, Values], tuple[Array, Array, Array]]:
+    def _satisfied(self) -> Callable[[InitializationProblem, Values], tuple[Array, Array, Array]]:
         """`_satisfy`, compiled once for every plan."""
         return compiled(self._satisfy)
 
-    def _satisfy(self, plan: Plan, start: Values) -> tuple[Array, Array, Array]:
+    def _satisfy(self, plan: InitializationProblem, start: Values) -> tuple[Array, Array, Array]:
         """States that satisfy the conditions, the residuals, and their Jacobian.
 
         The solution is found without derivatives; one Newton step from there, which moves nothing, carries them.
@@ -345,7 +345,7 @@ class Initializer(LeavesCaches):
 
     # -- errors ------------------------------------------------------------------------------------
 
-    def _check(self, plan: Plan, found: Values, rest: np.ndarray) -> None:
+    def _check(self, plan: InitializationProblem, found: Values, rest: np.ndarray) -> None:
         wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
         if not len(wrong):
             return
@@ -381,7 +381,7 @@ class Initializer(LeavesCaches):
         )
         raise InitializationError(f"{'; '.join(parts)}. {remedy}")
 
-    def _held(self, plan: Plan, found: Values, wrong: np.ndarray) -> list[str]:
+    def _held(self, plan: InitializationProblem, found: Values, wrong: np.ndarray) -> list[str]:
         """States that cannot change although violated conditions depend on them."""
 
         def residual(x: Array) -> Array:
@@ -392,7 +392,7 @@ class Initializer(LeavesCaches):
         return [n for i, n in enumerate(self.names) if hit[i] and i not in plan.moved]
 
 
-def _roles(plan: Plan, jacobian: np.ndarray) -> list[str]:
+def _roles(plan: InitializationProblem, jacobian: np.ndarray) -> list[str]:
     """What determined each of the states that moved."""
     if plan.least_squares:
         return ["fitted"] * len(plan.moved)

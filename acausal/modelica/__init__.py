@@ -4,7 +4,7 @@ In: the text of files, and values of their parameters. Out: a `Component`, as a 
 It knows declarations and netlists; neither flattening nor JAX. Text is parsed, never run.
 """
 
-from acausal.modelica.build import Model as Model
+from acausal.modelica.build import ModelicaModel as ModelicaModel
 from acausal.modelica.grammar import parse as parse
 from acausal.modelica.load import load as load
 from acausal.modelica.tokens import (

@@ -14,14 +14,14 @@ from acausal.modelica.operators import Frame
 from acausal.modelica.overloading import Overloading
 from acausal.modelica.syntax import (
     Branches,
-    Call,
     Connect,
-    Constant,
     Do,
-    Equation,
+    DottedName,
+    EquationStatement,
     Expression,
+    FunctionCall,
+    LiteralConstant,
     Loop,
-    Name,
     Several,
     Statement,
 )
@@ -71,7 +71,7 @@ class Algorithms(Overloading):
                     f"more than {MAX_STATEMENTS} statements are executed; does the loop end?"
                 )
             match statement:
-                case Equation():
+                case EquationStatement():
                     self._assign(statement, local)
                 case Branches() if statement.word == "if":
                     self._branch(statement.branches, local)
@@ -88,10 +88,10 @@ class Algorithms(Overloading):
                 case Branches() | Connect():
                     raise self.wrong("this does not stand in an algorithm of a function")
 
-    def _assign(self, statement: Equation, local: dict[str, Any]) -> None:
+    def _assign(self, statement: EquationStatement, local: dict[str, Any]) -> None:
         left = statement.left
         if isinstance(left, Several):
-            if not isinstance(statement.right, Call):
+            if not isinstance(statement.right, FunctionCall):
                 raise self.wrong("several variables are assigned the results of a function")
             for target, value in zip(left.items, self.results(statement.right), strict=False):
                 if target is not None:
@@ -99,7 +99,7 @@ class Algorithms(Overloading):
             return
         self._set(left, self.value(statement.right), local)
 
-    def results(self, call: Call) -> list[Any]:
+    def results(self, call: FunctionCall) -> list[Any]:
         """All results of a function."""
         self.at = call.at
         found, rest = self.frame.find(call.function.words)
@@ -109,8 +109,8 @@ class Algorithms(Overloading):
 
     def _set(self, target: Expression, value: Any, local: dict[str, Any]) -> None:
         self.at = target.at
-        if not isinstance(target, Name) or target.words[0] not in local:
-            what = target.text if isinstance(target, Name) else "this"
+        if not isinstance(target, DottedName) or target.words[0] not in local:
+            what = target.text if isinstance(target, DottedName) else "this"
             raise self.wrong(f"'{what}' cannot be assigned here")
         word = target.words[0]
         if self.left is not True:
@@ -118,7 +118,7 @@ class Algorithms(Overloading):
             kept = self.left is not False
             local[word] = self._merged(self.left, local[word], changed) if kept else changed
 
-    def _changed(self, old: Any, target: Name, i: int, value: Any) -> Any:
+    def _changed(self, old: Any, target: DottedName, i: int, value: Any) -> Any:
         """The value of a variable after one of its elements or fields has changed."""
         subscripts = target.subscripts.get(i)
         if subscripts is None:
@@ -220,7 +220,7 @@ class Algorithms(Overloading):
             )
         return holds
 
-    def perform(self, call: Call) -> None:
+    def perform(self, call: FunctionCall) -> None:
         """A call that stands alone: an assertion.
 
         Raises:
@@ -233,14 +233,14 @@ class Algorithms(Overloading):
             raise self.wrong(f"{word}(...) is not supported here{hint}", len(word))
         self.checked(call)
 
-    def checked(self, call: Call) -> None:
+    def checked(self, call: FunctionCall) -> None:
         """An assertion: of parameters it is checked now, of others there is a warning that nothing watches it."""
         arguments = [*call.arguments, *call.named.values()]
         if len(arguments) < 2:
             raise self.wrong("assert takes a condition and a text")
         holds, node = self.truth(self.value(arguments[0])), self.frame.node
         level = arguments[2] if len(arguments) > 2 else None
-        if isinstance(level, Name) and level.words[-1] == "warning":
+        if isinstance(level, DottedName) and level.words[-1] == "warning":
             return
         if isinstance(holds, sp.Basic) and self.varies(holds):
             if call.at not in node.unwatched:
@@ -249,7 +249,9 @@ class Algorithms(Overloading):
                 warnings.warn(str(found).partition("\n")[0], stacklevel=2)
             return
         if self.known(holds, "this assertion") is False:
-            text = arguments[1].value if isinstance(arguments[1], Constant) else "it is false"
+            text = (
+                arguments[1].value if isinstance(arguments[1], LiteralConstant) else "it is false"
+            )
             raise self.wrong(f"this assertion is violated: {text}")
 
 

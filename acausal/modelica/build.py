@@ -25,8 +25,8 @@ from acausal.modelica.modifications import (
 )
 from acausal.modelica.operators import Frame
 from acausal.modelica.outer import inner_of
-from acausal.modelica.overconstrained import Edge, Graph
-from acausal.modelica.syntax import ClassDefinition, Constant, Modifier
+from acausal.modelica.overconstrained import ConnectionGraph, Edge
+from acausal.modelica.syntax import ClassDefinition, LiteralConstant, ModificationSyntax
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.types import Type, is_component, type_of_declared
 from acausal.modelica.values import ABSENT, Record, as_array, of
@@ -36,7 +36,7 @@ from acausal.modeling import Component, Reference, charge, check_size
 MAX_DEPTH = 60
 
 
-class Model(Component):
+class ModelicaModel(Component):
     """A component whose class is Modelica text.
 
     Arguments:
@@ -61,7 +61,7 @@ class Model(Component):
         own = [
             Given(
                 name,
-                Modifier([], Constant(value, 0)),
+                ModificationSyntax([], LiteralConstant(value, 0)),
                 Frame(self._class),
                 self._class.definition.at,
             )
@@ -93,7 +93,7 @@ class Model(Component):
         yield from statements.initial_equations(self._build)
 
 
-def class_of(node: ClassNode) -> type[Model]:
+def class_of(node: ClassNode) -> type[ModelicaModel]:
     """The Python class of a class.
 
     Raises:
@@ -115,7 +115,7 @@ def class_of(node: ClassNode) -> type[Model]:
             and b not in natives[:i]
         ]
         attributes = {"_class": node, "__module__": __name__, "__doc__": node.definition.comment}
-        node.python = type(node.definition.name, (Model, *bases), attributes)
+        node.python = type(node.definition.name, (ModelicaModel, *bases), attributes)
     return node.python
 
 
@@ -140,7 +140,7 @@ class Build:
     """
 
     def __init__(
-        self, component: Model, node: ClassNode, given: Sequence[Given], above: Build | None
+        self, component: ModelicaModel, node: ClassNode, given: Sequence[Given], above: Build | None
     ) -> None:
         self.component, self.node, self.given, self.above = component, node, list(given), above
         self.made: dict[str, Any] = {}
@@ -153,10 +153,10 @@ class Build:
         self.given_inwards: list[tuple[Reference, Reference]] = []
         self.decided: dict[str, float] = {}
         self.counted: dict[Any, int] = {}
-        self.parts_of_text: list[Model] = []
+        self.parts_of_text: list[ModelicaModel] = []
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
-        self.graph, self.edges = Graph(), list[Edge]()
+        self.graph, self.edges = ConnectionGraph(), list[Edge]()
 
     @property
     def entries(self) -> dict[str, Entry]:

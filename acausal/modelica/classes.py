@@ -12,13 +12,13 @@ from acausal.errors import nearest, shortened
 from acausal.modelica.grammar import parse
 from acausal.modelica.meanings import Native, Predefined, Prefix
 from acausal.modelica.syntax import (
-    Argument,
     ClassDefinition,
     Declared,
+    DottedName,
     Expression,
     Extends,
     Import,
-    Name,
+    ModificationArgument,
     Statement,
 )
 from acausal.modelica.tokens import PREDEFINED, ModelicaError, Source, read_source
@@ -36,7 +36,7 @@ class Entry:
 
     declared: Declared
     node: ClassNode
-    modifiers: list[tuple[Argument, ClassNode]]
+    modifiers: list[tuple[ModificationArgument, ClassNode]]
 
     @property
     def stated(self) -> tuple[Expression | None, ClassNode]:
@@ -60,7 +60,7 @@ class Entry:
 
 
 @dataclass(eq=False)
-class View:
+class ClassView:
     """A class together with what it inherits.
 
     Attributes:
@@ -71,12 +71,16 @@ class View:
         subscripts: of types that are arrays.
     """
 
-    natives: list[tuple[Native, list[tuple[Argument, ClassNode]]]] = field(default_factory=list)
+    natives: list[tuple[Native, list[tuple[ModificationArgument, ClassNode]]]] = field(
+        default_factory=list
+    )
     predefined: Predefined | None = None
-    attributes: list[tuple[Argument, ClassNode]] = field(default_factory=list)
+    attributes: list[tuple[ModificationArgument, ClassNode]] = field(default_factory=list)
     entries: dict[str, Entry] = field(default_factory=dict)
     sections: list[tuple[str, list[Statement], ClassNode]] = field(default_factory=list)
-    classes: dict[str, tuple[Argument | ClassDefinition, ClassNode]] = field(default_factory=dict)
+    classes: dict[str, tuple[ModificationArgument | ClassDefinition, ClassNode]] = field(
+        default_factory=dict
+    )
     subscripts: list[tuple[Any, ClassNode]] = field(default_factory=list)
     causality: str = ""
     connection: str = ""
@@ -279,7 +283,7 @@ class ClassNode:
                     return found
         return None
 
-    def unknown(self, name: Name, what: str = "class") -> ModelicaError:
+    def unknown(self, name: DottedName, what: str = "class") -> ModelicaError:
         """The error for a name that means nothing here."""
         words = [w for w in name.words if w]
         if self.tree.root(words[0]) is None or isinstance(self.tree.root(words[0]), ClassNode):
@@ -300,7 +304,7 @@ class ClassNode:
 
     # -- inheritance -----------------------------------------------------------------------------------
 
-    def view(self) -> View:
+    def view(self) -> ClassView:
         """The class with what it inherits.
 
         Raises:
@@ -309,11 +313,11 @@ class ClassNode:
         return self._view
 
     @cached_property
-    def _view(self) -> View:
+    def _view(self) -> ClassView:
         if self._viewed:
             raise self.refused(f"'{self.definition.name}' extends itself")
         self._viewed = True
-        view, short = View(), self.definition.short
+        view, short = ClassView(), self.definition.short
         if self.definition.literals is not None:
             view.predefined = Predefined(self.full)
         for element in self.definition.elements:
@@ -343,9 +347,11 @@ class ClassNode:
         self._viewed = False
         return view
 
-    def _inherit(self, view: View, clause: Extends) -> None:
+    def _inherit(self, view: ClassView, clause: Extends) -> None:
         base = self.base(clause)
-        arguments: list[tuple[Argument, ClassNode]] = [(a, self) for a in clause.modifier.arguments]
+        arguments: list[tuple[ModificationArgument, ClassNode]] = [
+            (a, self) for a in clause.modifier.arguments
+        ]
         match base:
             case Predefined():
                 view.predefined = base
@@ -402,8 +408,8 @@ class ClassNode:
 
     @staticmethod
     def _for_native(
-        arguments: list[tuple[Argument, ClassNode]], inherited: View
-    ) -> list[tuple[Argument, ClassNode]]:
+        arguments: list[tuple[ModificationArgument, ClassNode]], inherited: ClassView
+    ) -> list[tuple[ModificationArgument, ClassNode]]:
         return [
             p for p in arguments if p[0].name not in inherited.entries and p[0].redeclared is None
         ]

@@ -12,7 +12,16 @@ from acausal.modelica import overconstrained
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.outer import around
 from acausal.modelica.overconstrained import Edge
-from acausal.modelica.syntax import Branches, Call, Connect, Constant, Do, Loop, Name, Statement
+from acausal.modelica.syntax import (
+    Branches,
+    Connect,
+    Do,
+    DottedName,
+    FunctionCall,
+    LiteralConstant,
+    Loop,
+    Statement,
+)
 from acausal.modelica.values import Absent, Record, as_record, is_array, is_end, nested
 from acausal.modeling import Component, Connector, Eq, Reference, owner_and_name
 
@@ -96,9 +105,9 @@ class Connecting(Interpreter):
             yield from self.pairs(*ends)
             return
         constraint = ends[0].node.member("equalityConstraint")
-        name = Name(("equalityConstraint",), {}, edge.at)
+        name = DottedName(("equalityConstraint",), {}, edge.at)
         residual = self.inlined(
-            constraint, Call(name, [Constant(e, edge.at) for e in ends], {}, edge.at)
+            constraint, FunctionCall(name, [LiteralConstant(e, edge.at) for e in ends], {}, edge.at)
         )[0]
         yield from self.pairs(residual, np.zeros(np.shape(residual), dtype=object))
 

@@ -16,17 +16,17 @@ from acausal.modelica.meanings import Literal, Native, Predefined, Prefix, Value
 from acausal.modelica.operators import Frame, Operators
 from acausal.modelica.outer import inwards
 from acausal.modelica.syntax import (
-    Array,
-    Call,
+    ArrayConstructor,
     Choice,
     Comprehension,
-    Constant,
-    End,
+    DottedName,
+    EndSubscript,
     Expression,
-    Matrix,
-    Name,
-    Operation,
-    Range,
+    FunctionCall,
+    LiteralConstant,
+    MatrixConstructor,
+    OperatorExpression,
+    RangeExpression,
     Several,
     Whole,
 )
@@ -75,25 +75,25 @@ class Evaluator(Operators):
 
     def _value(self, expression: Expression) -> Any:
         match expression:
-            case Constant():
+            case LiteralConstant():
                 return expression.value
-            case Name():
+            case DottedName():
                 return self.name(expression)
-            case Operation():
+            case OperatorExpression():
                 return self._operation(expression)
-            case Call():
+            case FunctionCall():
                 return self._call(expression)
             case Choice():
                 return self._choice(expression)
-            case Array():
+            case ArrayConstructor():
                 return as_array([self.value(item) for item in expression.items])
-            case Matrix():
+            case MatrixConstructor():
                 return self._matrix(expression)
-            case Range():
+            case RangeExpression():
                 return self._range(expression)
             case Comprehension():
                 return self.comprehension(expression)
-            case End():
+            case EndSubscript():
                 if not self.ends:
                     raise self.wrong("'end' stands for a size in a subscript only")
                 return self.ends[-1]
@@ -104,7 +104,7 @@ class Evaluator(Operators):
 
     # -- arrays ----------------------------------------------------------------------------------------
 
-    def _matrix(self, expression: Matrix) -> Any:
+    def _matrix(self, expression: MatrixConstructor) -> Any:
         rows = [[self._two(self.value(v)) for v in row] for row in expression.rows]
         return np.concatenate([np.concatenate(row, axis=1) for row in rows], axis=0)
 
@@ -112,7 +112,7 @@ class Evaluator(Operators):
         found = value if isinstance(value, np.ndarray) else array_of([value])
         return found.reshape(-1, 1) if found.ndim == 1 else found
 
-    def _range(self, expression: Range) -> Any:
+    def _range(self, expression: RangeExpression) -> Any:
         first, last = self.value(expression.first), self.value(expression.last)
         step = 1 if expression.step is None else self.value(expression.step)
         if isinstance(first, Literal) and isinstance(last, Literal):
@@ -225,7 +225,7 @@ class Evaluator(Operators):
 
     # -- names -----------------------------------------------------------------------------------------
 
-    def name(self, name: Name) -> Any:
+    def name(self, name: DottedName) -> Any:
         """The value of a name."""
         value, i = self._first(name)
         if i - 1 in name.subscripts:
@@ -244,7 +244,7 @@ class Evaluator(Operators):
         value = value if self.connecting else as_record(value)
         return mapped(partial(inwards, build), value) if build and outer else value
 
-    def _first(self, name: Name) -> tuple[Any, int]:
+    def _first(self, name: DottedName) -> tuple[Any, int]:
         """The value of the first words, and how many they are."""
         word, frame = name.words[0], self.frame
         if word in frame.local:
@@ -293,7 +293,7 @@ class Evaluator(Operators):
                 return value, len(name.words)
         raise self.unknown(name, 0 if found is None else i, found)
 
-    def unknown(self, name: Name, i: int, value: Any) -> Exception:
+    def unknown(self, name: DottedName, i: int, value: Any) -> Exception:
         """The error for a name of which a word means nothing."""
         self.at = name.at
         if isinstance(value, ClassNode | Native | Predefined) and i >= len(name.words):
@@ -345,7 +345,7 @@ class Evaluator(Operators):
 
     # -- calls -----------------------------------------------------------------------------------------
 
-    def arguments(self, call: Call, least: int, most: int | None = None) -> list[Any]:
+    def arguments(self, call: FunctionCall, least: int, most: int | None = None) -> list[Any]:
         """The values of arguments, of which there have to be so many."""
         given = [*call.arguments, *call.named.values()]
         if not least <= len(given) <= (most or least):
@@ -367,7 +367,7 @@ class Evaluator(Operators):
             else int(np.floor(value))
         )
 
-    def _call(self, call: Call) -> Any:
+    def _call(self, call: FunctionCall) -> Any:
         raise NotImplementedError
 
     def elsewhere(self, frame: Frame) -> Self:

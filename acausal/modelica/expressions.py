@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 
 from acausal.modelica.syntax import (
-    Array,
-    Call,
+    ArrayConstructor,
     Choice,
     Comprehension,
-    Constant,
-    End,
+    DottedName,
+    EndSubscript,
     Expression,
-    Matrix,
-    Name,
-    Operation,
-    Range,
+    FunctionCall,
+    LiteralConstant,
+    MatrixConstructor,
+    OperatorExpression,
+    RangeExpression,
     Several,
     Whole,
 )
@@ -57,12 +57,12 @@ class Expressions(Tokens):
         self.take(":")
         second = self.disjunction()
         if self.accept(":"):
-            return Range(first, second, self.disjunction(), at)
-        return Range(first, None, second, at)
+            return RangeExpression(first, second, self.disjunction(), at)
+        return RangeExpression(first, None, second, at)
 
     def operation(self, operator: str, place: int, *operands: Expression) -> Expression:
         """The node of an operator."""
-        return Operation(operator, operands, self.starts[place])
+        return OperatorExpression(operator, operands, self.starts[place])
 
     def primary(self) -> Expression:
         """The node of an operand."""
@@ -70,14 +70,14 @@ class Expressions(Tokens):
         first = text[:1]
         if first.isdigit() or (first == "." and len(text) > 1 and text[1].isdigit()):
             self.position += 1
-            return Constant(
+            return LiteralConstant(
                 int(text) if text.isdigit() and len(text) < 16 else self._float(text), at
             )
         if first == '"':
-            return Constant(self.text(), at)
+            return LiteralConstant(self.text(), at)
         if text in ("true", "false"):
             self.position += 1
-            return Constant(text == "true", at)
+            return LiteralConstant(text == "true", at)
         if text == "(":
             return self._parentheses()
         if text == "{":
@@ -85,13 +85,13 @@ class Expressions(Tokens):
             return self._array(at)
         if text == "[":
             self.position += 1
-            return Matrix(self.matrix(), at)
+            return MatrixConstructor(self.matrix(), at)
         if text == "end":
             self.position += 1
-            return End(at)
+            return EndSubscript(at)
         if text in CALLABLE:
             self.position += 1
-            return self.call(Name((text,), {}, at))
+            return self.call(DottedName((text,), {}, at))
         if text in KEYWORDS or not text:
             raise self.wrong(f"an expression expected, {self.found} found")
         name = self.reference()
@@ -124,7 +124,7 @@ class Expressions(Tokens):
             i += 1
         return found
 
-    def reference(self) -> Name:
+    def reference(self) -> DottedName:
         """``a.b[2].c``; a leading dot is kept as an empty word."""
         at = self.at
         words: list[str] = [""] if self.accept(".") else []
@@ -134,9 +134,9 @@ class Expressions(Tokens):
             if self.texts[self.position] == "[":
                 subscripts[len(words) - 1] = self.subscripts()
             if not self.accept("."):
-                return Name(tuple(words), subscripts, at)
+                return DottedName(tuple(words), subscripts, at)
 
-    def dotted(self) -> Name:
+    def dotted(self) -> DottedName:
         """The name of a class."""
         at = self.at
         words: list[str] = [""] if self.accept(".") else []
@@ -144,7 +144,7 @@ class Expressions(Tokens):
         while self.texts[self.position] == ".":
             self.position += 1
             words.append(self.identifier())
-        return Name(tuple(words), {}, at)
+        return DottedName(tuple(words), {}, at)
 
     def subscripts(self) -> list[Expression]:
         """``[1, :, end]``."""
@@ -161,7 +161,7 @@ class Expressions(Tokens):
         self.take("]")
         return found
 
-    def call(self, function: Name, partial: bool = False) -> Call:
+    def call(self, function: DottedName, partial: bool = False) -> FunctionCall:
         """The arguments of a function whose name has been read."""
         self.deeper()
         self.take("(")
@@ -185,7 +185,7 @@ class Expressions(Tokens):
                 break
         self.take(")")
         self.depth -= 1
-        return Call(function, given, named, function.at, partial)
+        return FunctionCall(function, given, named, function.at, partial)
 
     def _argument(self) -> Expression:
         if self.accept("function"):
@@ -224,7 +224,7 @@ class Expressions(Tokens):
 
     def _array(self, at: int) -> Expression:
         if self.accept("}"):
-            return Array([], at)
+            return ArrayConstructor([], at)
         items = [self._argument()]
         if self.peek == "for":
             value = self._comprehension(items[0])
@@ -233,4 +233,4 @@ class Expressions(Tokens):
         while self.accept(","):
             items.append(self._argument())
         self.take("}")
-        return Array(items, at)
+        return ArrayConstructor(items, at)

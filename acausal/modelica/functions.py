@@ -16,9 +16,9 @@ from acausal.modelica.language import SPECIAL
 from acausal.modelica.meanings import Native, Predefined, Value
 from acausal.modelica.operators import MAX_CALLS, Frame
 from acausal.modelica.syntax import (
-    Call,
-    Constant,
     Expression,
+    FunctionCall,
+    LiteralConstant,
     Whole,
 )
 from acausal.modelica.values import (
@@ -45,7 +45,7 @@ class Interpreter(Algorithms):
 
     # -- calls -----------------------------------------------------------------------------------------
 
-    def _call(self, call: Call) -> Any:
+    def _call(self, call: FunctionCall) -> Any:
         words = call.function.words
         name = words[1] if words[0] == "" and len(words) == 2 else call.function.text
         special = SPECIAL.get(name)
@@ -129,7 +129,7 @@ class Interpreter(Algorithms):
 
     # -- functions of the user ---------------------------------------------------------------------------
 
-    def inlined(self, node: ClassNode, call: Call) -> list[Any]:
+    def inlined(self, node: ClassNode, call: FunctionCall) -> list[Any]:
         """The results of a function, as expressions of its arguments.
 
         Raises:
@@ -197,7 +197,7 @@ class Interpreter(Algorithms):
         return [local[name] for name in outputs]
 
     def _for_each_element(
-        self, node: ClassNode, call: Call, values: dict[str, Any], arrays: list[str]
+        self, node: ClassNode, call: FunctionCall, values: dict[str, Any], arrays: list[str]
     ) -> list[Any]:
         """The results for arrays in the place of scalars: arrays, too (Modelica 3.6, section 12.4.6)."""
         shapes = {np.shape(values[n]) for n in arrays}
@@ -208,9 +208,10 @@ class Interpreter(Algorithms):
         found: list[list[Any]] = []
         for place in np.ndindex(*shape):
             named: dict[str, Expression] = {
-                n: Constant(v[place] if n in arrays else v, call.at) for n, v in values.items()
+                n: LiteralConstant(v[place] if n in arrays else v, call.at)
+                for n, v in values.items()
             }
-            found.append(self.inlined(node, Call(call.function, [], named, call.at)))
+            found.append(self.inlined(node, FunctionCall(call.function, [], named, call.at)))
         return [
             array_of(list(r)).reshape((*shape, *np.shape(r[0]))) for r in zip(*found, strict=True)
         ]

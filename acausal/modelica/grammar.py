@@ -7,23 +7,23 @@ from dataclasses import replace
 from acausal.modelica.expressions import Expressions
 from acausal.modelica.placing import placement
 from acausal.modelica.syntax import (
-    Argument,
     Branches,
-    Call,
     ClassDefinition,
     Connect,
     Declared,
     Do,
+    DottedName,
     Element,
-    Equation,
+    EquationStatement,
     Expression,
     Extends,
+    FunctionCall,
     Import,
     Loop,
-    Modifier,
-    Name,
+    ModificationArgument,
+    ModificationSyntax,
     Prefixes,
-    Short,
+    ShortClass,
     Statement,
 )
 from acausal.modelica.tokens import Source
@@ -88,7 +88,9 @@ class _Reader(Expressions):
         )
         if inherited:
             arguments = self.class_modification() if self.peek == "(" else []
-            found.elements.append(Extends(Name((found.name,), {}, at), Modifier(arguments), at))
+            found.elements.append(
+                Extends(DottedName((found.name,), {}, at), ModificationSyntax(arguments), at)
+            )
         if not inherited and self.accept("="):
             self._short(found)
         else:
@@ -132,7 +134,9 @@ class _Reader(Expressions):
             base = self.dotted()
             subscripts = self.subscripts() if self.peek == "[" else []
             arguments = self.class_modification() if self.peek == "(" else []
-            found.short = Short(base, subscripts, Modifier(arguments), causality, connection)
+            found.short = ShortClass(
+                base, subscripts, ModificationSyntax(arguments), causality, connection
+            )
             found.elements.append(Extends(base, found.short.modifier, at))
         self.comment(found)
 
@@ -203,7 +207,7 @@ class _Reader(Expressions):
             arguments = self.class_modification() if self.peek == "(" else []
             for element in found:
                 assert isinstance(element, ClassDefinition | Declared)
-                element.constraint = Extends(base, Modifier(arguments), at)
+                element.constraint = Extends(base, ModificationSyntax(arguments), at)
             self.comment()
         return found
 
@@ -245,7 +249,7 @@ class _Reader(Expressions):
         arguments = self.class_modification() if self.peek == "(" else []
         if self.peek == "annotation":
             self.annotation()
-        return Extends(base, Modifier(arguments), at)
+        return Extends(base, ModificationSyntax(arguments), at)
 
     def _components(self, prefixes: Prefixes, single: bool) -> list[Element]:
         while (word := self.peek) in (
@@ -280,7 +284,7 @@ class _Reader(Expressions):
 
     # -- modifiers ---------------------------------------------------------------------------------
 
-    def modifier(self) -> Modifier:
+    def modifier(self) -> ModificationSyntax:
         """What may stand behind a name: ``(...)``, ``= value``, both or nothing."""
         arguments = self.class_modification() if self.peek == "(" else []
         value = None
@@ -288,12 +292,12 @@ class _Reader(Expressions):
             value = self.expression() if self.peek != "break" else None
             if value is None:
                 self.position += 1
-        return Modifier(arguments, value)
+        return ModificationSyntax(arguments, value)
 
-    def class_modification(self) -> list[Argument]:
+    def class_modification(self) -> list[ModificationArgument]:
         self.deeper()
         self.take("(")
-        found: list[Argument] = []
+        found: list[ModificationArgument] = []
         while self.peek != ")":
             here = self.position
             found.append(self._modifier_argument())
@@ -306,7 +310,7 @@ class _Reader(Expressions):
         self.depth -= 1
         return found
 
-    def _modifier_argument(self) -> Argument:
+    def _modifier_argument(self) -> ModificationArgument:
         at, redeclare = self.at, self.accept("redeclare")
         each = self.accept("each")
         final = self.accept("final")
@@ -315,11 +319,13 @@ class _Reader(Expressions):
             prefixes = Prefixes(redeclare=redeclare, replaceable=replaceable, final=final)
             element = self._class_or_components(prefixes, single=True)[0]
             assert isinstance(element, ClassDefinition | Declared)
-            return Argument(element.name, Modifier(), at, each, final, element)
+            return ModificationArgument(
+                element.name, ModificationSyntax(), at, each, final, element
+            )
         name, at = self.dotted().text, self.at if each or final else at
         modifier = self.modifier()
         self.string_comment()
-        return Argument(name, modifier, at, each, final)
+        return ModificationArgument(name, modifier, at, each, final)
 
     # -- comments ------------------------------------------------------------------------------------
 
@@ -397,7 +403,7 @@ class _Reader(Expressions):
             found = Connect((first, second), at)
         elif word in ("break", "return"):
             self.position += 1
-            found = Do(Call(Name((word,), {}, at), [], {}, at), at)
+            found = Do(FunctionCall(DottedName((word,), {}, at), [], {}, at), at)
         else:
             found = self._simple(is_equation, at)
         self.comment()
@@ -408,8 +414,8 @@ class _Reader(Expressions):
         sign = "=" if is_equation else ":="
         if self.peek == sign:
             self.position += 1
-            return Equation(left, self.expression(), at)
-        if isinstance(left, Call):
+            return EquationStatement(left, self.expression(), at)
+        if isinstance(left, FunctionCall):
             return Do(left, at)
         raise self.wrong(f"'{sign}' expected, {self.found} found")
 

@@ -12,7 +12,7 @@ import sympy as sp
 
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.overconstrained import is_root, is_rooted
-from acausal.modelica.syntax import Call, Comprehension, Expression
+from acausal.modelica.syntax import Comprehension, Expression, FunctionCall
 from acausal.modelica.values import (
     Record,
     array_of,
@@ -38,33 +38,33 @@ def _without_events(self: Evaluator, expression: Expression) -> Any:
         self.frame = frame
 
 
-def _smooth(self: Evaluator, call: Call) -> Any:
+def _smooth(self: Evaluator, call: FunctionCall) -> Any:
     if len(call.arguments) != 2:
         raise self.wrong("smooth(...) takes 2 arguments")
     return _without_events(self, call.arguments[1])
 
 
-def _no_event(self: Evaluator, call: Call) -> Any:
+def _no_event(self: Evaluator, call: FunctionCall) -> Any:
     if len(call.arguments) != 1:
         raise self.wrong("noEvent(...) takes 1 argument")
     return _without_events(self, call.arguments[0])
 
 
-def _homotopy(self: Evaluator, call: Call) -> Any:
+def _homotopy(self: Evaluator, call: FunctionCall) -> Any:
     values = self.arguments(call, 2)
     return self.value(call.named["actual"]) if "actual" in call.named else values[0]
 
 
-def _semi_linear(self: Evaluator, call: Call) -> Any:
+def _semi_linear(self: Evaluator, call: FunctionCall) -> Any:
     x, a, b = self.arguments(call, 3)
     holds = self.relation(">=", x, 0)
     return self.chosen(holds, self.arithmetic("*", a, x), self.arithmetic("*", b, x))
 
 
-def _mapped(function: Callable[[Any], Any]) -> Callable[[Evaluator, Call], Any]:
+def _mapped(function: Callable[[Any], Any]) -> Callable[[Evaluator, FunctionCall], Any]:
     """A function of one variable, applied to each element."""
 
-    def applied(self: Evaluator, call: Call) -> Any:
+    def applied(self: Evaluator, call: FunctionCall) -> Any:
         frame = self.frame
         if frame.build is not None:  # the variable, not what an algorithm has assigned to it
             known = frame.build.names
@@ -81,7 +81,7 @@ def _mapped(function: Callable[[Any], Any]) -> Callable[[Evaluator, Call], Any]:
     return applied
 
 
-def _der(self: Evaluator, call: Call) -> Any:
+def _der(self: Evaluator, call: FunctionCall) -> Any:
     (value,) = self.arguments(call, 1)
     for element in elements(value):
         if type_of(element) in ("Boolean", "String"):
@@ -89,7 +89,7 @@ def _der(self: Evaluator, call: Call) -> Any:
     return each(lambda v: der(self.number(v)), value)
 
 
-def _sample(self: Evaluator, call: Call) -> Any:
+def _sample(self: Evaluator, call: FunctionCall) -> Any:
     start, period = self.arguments(call, 2)
     try:
         return sample(start, period)
@@ -101,8 +101,8 @@ FOLDED = {"sum": ("+", 0), "product": ("*", 1)}
 """Reductions by an operator, and what is left of no values."""
 
 
-def _reduction(name: str) -> Callable[[Evaluator, Call], Any]:
-    def reduced(self: Evaluator, call: Call) -> Any:
+def _reduction(name: str) -> Callable[[Evaluator, FunctionCall], Any]:
+    def reduced(self: Evaluator, call: FunctionCall) -> Any:
         if len(call.arguments) == 1:
             (value,) = self.arguments(call, 1)
             values = elements(as_array(value))
@@ -131,7 +131,7 @@ def _reduction(name: str) -> Callable[[Evaluator, Call], Any]:
     return reduced
 
 
-def _size(self: Evaluator, call: Call) -> Any:
+def _size(self: Evaluator, call: FunctionCall) -> Any:
     value, *which = self.arguments(call, 1, 2)
     shape: list[int] = []
     while isinstance(value, list | tuple) and value:
@@ -147,8 +147,8 @@ def _size(self: Evaluator, call: Call) -> Any:
     return shape[index - 1]
 
 
-def _filled(number: Any) -> Callable[[Evaluator, Call], Any]:
-    def filled(self: Evaluator, call: Call) -> Any:
+def _filled(number: Any) -> Callable[[Evaluator, FunctionCall], Any]:
+    def filled(self: Evaluator, call: FunctionCall) -> Any:
         values = self.arguments(call, 1, 20)
         first, sizes = (values[0], values[1:]) if number is None else (number, values)
         shape = [self.whole(n, "a size") for n in sizes]
@@ -160,21 +160,21 @@ def _filled(number: Any) -> Callable[[Evaluator, Call], Any]:
     return filled
 
 
-def _identity(self: Evaluator, call: Call) -> Any:
+def _identity(self: Evaluator, call: FunctionCall) -> Any:
     (n,) = self.arguments(call, 1)
     n = self.whole(n, "a size")
     check_size(n * n, "the array")
     return identity(n)
 
 
-def _diagonal(self: Evaluator, call: Call) -> Any:
+def _diagonal(self: Evaluator, call: FunctionCall) -> Any:
     values = elements(self.arguments(call, 1)[0])
     return array_of(
         [[v if i == j else 0 for j in range(len(values))] for i, v in enumerate(values)]
     )
 
 
-def _linspace(self: Evaluator, call: Call) -> Any:
+def _linspace(self: Evaluator, call: FunctionCall) -> Any:
     a, b, n = self.arguments(call, 3)
     n = self.whole(n, "a size")
     check_size(n, "the array")
@@ -182,15 +182,15 @@ def _linspace(self: Evaluator, call: Call) -> Any:
     return array_of([self.arithmetic("+", a, self.arithmetic("*", step, i)) for i in range(n)])
 
 
-def _on_array(function: Callable[[Any], Any]) -> Callable[[Evaluator, Call], Any]:
-    def applied(self: Evaluator, call: Call) -> Any:
+def _on_array(function: Callable[[Any], Any]) -> Callable[[Evaluator, FunctionCall], Any]:
+    def applied(self: Evaluator, call: FunctionCall) -> Any:
         (value,) = self.arguments(call, 1)
         return function(value if isinstance(value, np.ndarray) else array_of([value]))
 
     return applied
 
 
-def _cat(self: Evaluator, call: Call) -> Any:
+def _cat(self: Evaluator, call: FunctionCall) -> Any:
     first, *parts = self.arguments(call, 2, 50)
     try:
         return np.concatenate(parts, axis=self.whole(first, "a dimension") - 1)
@@ -198,21 +198,21 @@ def _cat(self: Evaluator, call: Call) -> Any:
         raise self.wrong("the arrays do not fit") from None
 
 
-def _array(self: Evaluator, call: Call) -> Any:
+def _array(self: Evaluator, call: FunctionCall) -> Any:
     if len(call.arguments) == 1 and isinstance(call.arguments[0], Comprehension):
         return self.value(call.arguments[0])
     return as_array([self.value(a) for a in call.arguments])
 
 
-def _cross(self: Evaluator, call: Call) -> Any:
+def _cross(self: Evaluator, call: FunctionCall) -> Any:
     a, b = self.arguments(call, 2)
     return array_of([a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))])
 
 
 def _rounding(
     function: Callable[[Evaluator, Any, Any], Any], least: int
-) -> Callable[[Evaluator, Call], Any]:
-    def applied(self: Evaluator, call: Call) -> Any:
+) -> Callable[[Evaluator, FunctionCall], Any]:
+    def applied(self: Evaluator, call: FunctionCall) -> Any:
         values = self.arguments(call, least)
         return each(lambda *v: function(self, v[0], v[-1]), *values)
 
@@ -249,7 +249,7 @@ def _integer_of(self: Evaluator, x: Any, _: Any) -> Any:
     return x if isinstance(x, sp.Expr) else self.whole(x, "Integer(...)")
 
 
-def _cardinality(self: Evaluator, call: Call) -> Any:
+def _cardinality(self: Evaluator, call: FunctionCall) -> Any:
     self.connecting = True
     (end,) = self.arguments(call, 1)
     self.connecting = False
@@ -266,23 +266,23 @@ def _cardinality(self: Evaluator, call: Call) -> Any:
     return counted[wanted]
 
 
-def _assertion(self: Evaluator, call: Call) -> Any:
+def _assertion(self: Evaluator, call: FunctionCall) -> Any:
     raise self.wrong("assert(...) is a statement, not a value")
 
 
-def _initial(self: Evaluator, call: Call) -> Any:
+def _initial(self: Evaluator, call: FunctionCall) -> Any:
     self.arguments(call, 0)
     return initial()
 
 
-def _string(self: Evaluator, call: Call) -> Any:
+def _string(self: Evaluator, call: FunctionCall) -> Any:
     value = self.value(call.arguments[0]) if call.arguments else ""
     if isinstance(value, sp.Basic):
         raise self.wrong("a text of what changes with time is not supported")
     return str(value)
 
 
-SPECIAL: dict[str, Callable[[Evaluator, Call], Any]] = {
+SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "der": _der, "pre": _mapped(pre), "edge": _mapped(edge), "change": _mapped(change),
     "initial": _initial, "sample": _sample, "noEvent": _no_event, "smooth": _smooth,
     "homotopy": _homotopy, "semiLinear": _semi_linear,

@@ -16,7 +16,7 @@ from acausal.modeling import Component, Eq, Option, Variable, check_nested
 from acausal.netlist import NetlistError, Scope, is_structural, make, modify
 
 
-class Values(Scope):
+class ModifierValues(Scope):
     """The values of modifiers, which are evaluated already."""
 
     def __init__(self) -> None:
@@ -53,7 +53,7 @@ def make_part(cls: Any, given: Sequence[Given], base: Any = None) -> Any:
             first = first or one
             raw[name] = _structural(cls, name, mod)
     try:
-        return make(Values(), cls, raw, cls.__name__, cls.__name__, base)[0]
+        return make(ModifierValues(), cls, raw, cls.__name__, cls.__name__, base)[0]
     except ModelError as error:
         if first is None:
             raise
@@ -136,6 +136,6 @@ def _raw(mod: Modification) -> Any:
 
 def _placed(one: Given, part: Component, name: str, raw: Any) -> None:
     try:
-        modify(Values(), part, name, raw, name)
+        modify(ModifierValues(), part, name, raw, name)
     except ModelError as error:
         raise one.wrong(str(error)) from None

@@ -10,7 +10,13 @@ from typing import Any
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.operators import Frame
-from acausal.modelica.syntax import Argument, Constant, Declared, Expression, Modifier
+from acausal.modelica.syntax import (
+    Declared,
+    Expression,
+    LiteralConstant,
+    ModificationArgument,
+    ModificationSyntax,
+)
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.values import is_array, of
 
@@ -34,7 +40,7 @@ class Given:
     """
 
     name: str
-    modifier: Modifier
+    modifier: ModificationSyntax
     frame: Frame
     at: int
     index: Index = ()
@@ -97,22 +103,24 @@ class Modification:
     inner: list[Given] = field(default_factory=list[Given])
     redeclared: Given | None = None
 
-    def add(self, modifier: Modifier, frame: Frame, index: Index = ()) -> None:
+    def add(self, modifier: ModificationSyntax, frame: Frame, index: Index = ()) -> None:
         """Add a modifier that stands further in."""
         if modifier.value is not None:
             self.value = self.value or Bound(modifier.value, frame, index)
         self.inner += given_by(modifier.arguments, frame, index)
 
 
-def given_by(arguments: Iterable[Argument], frame: Frame, index: Index = ()) -> list[Given]:
+def given_by(
+    arguments: Iterable[ModificationArgument], frame: Frame, index: Index = ()
+) -> list[Given]:
     """The arguments of a modifier; those of a dotted name are nested."""
     found: list[Given] = []
     for argument in arguments:
         name, _, rest = argument.name.partition(".")
         modifier = argument.modifier
         if rest:
-            inner = Argument(rest, modifier, argument.at, argument.each, argument.final)
-            modifier = Modifier([inner])
+            inner = ModificationArgument(rest, modifier, argument.at, argument.each, argument.final)
+            modifier = ModificationSyntax([inner])
         own = () if argument.each else index
         redeclared = argument.redeclared
         found.append(
@@ -165,7 +173,7 @@ def fields_of(node: ClassNode, value: Bound) -> list[Given]:
         found.append(
             Given(
                 name,
-                Modifier([], Constant(given, value.expression.at)),
+                ModificationSyntax([], LiteralConstant(given, value.expression.at)),
                 value.frame,
                 value.expression.at,
             )

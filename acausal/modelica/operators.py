@@ -14,7 +14,7 @@ from acausal.modelica.meanings import Literal
 from acausal.modelica.syntax import (
     Choice,
     Expression,
-    Operation,
+    OperatorExpression,
 )
 from acausal.modelica.values import (
     Absent,
@@ -92,11 +92,11 @@ class Operators(Arithmetic):
         """The value of an expression."""
         raise NotImplementedError
 
-    def _operation(self, expression: Operation) -> Any:
+    def _operation(self, expression: OperatorExpression) -> Any:
         """An operator; long sums are walked through from their first operand on."""
-        spine: list[Operation] = []
+        spine: list[OperatorExpression] = []
         first: Expression = expression
-        while isinstance(first, Operation):
+        while isinstance(first, OperatorExpression):
             spine.append(first)
             first = first.operands[0]
         value = self.value(first)

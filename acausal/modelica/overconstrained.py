@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from acausal.modelica.evaluate import Evaluator
-from acausal.modelica.syntax import Call
+from acausal.modelica.syntax import FunctionCall
 from acausal.modeling import Component
 
 
@@ -23,7 +23,7 @@ class Edge:
 
 
 @dataclass(eq=False)
-class Graph:
+class ConnectionGraph:
     """The virtual connection graph of a model; its nodes are records.
 
     Attributes:
@@ -66,7 +66,7 @@ class Graph:
                 self.depth |= nx.single_source_shortest_path_length(forest, node)
 
 
-def note(self: Evaluator, call: Call) -> None:
+def note(self: Evaluator, call: FunctionCall) -> None:
     """Take what ``Connections.branch``, ``root`` or ``potentialRoot`` states into the graph of the model."""
     word = call.function.words[-1]
     graph, given = graph_of(self), _records(self, call)
@@ -80,19 +80,19 @@ def note(self: Evaluator, call: Call) -> None:
         graph.potential.append((priority, given[0]))
 
 
-def is_root(self: Evaluator, call: Call) -> bool:
+def is_root(self: Evaluator, call: FunctionCall) -> bool:
     """Whether a record is the root of its tree."""
     return _depth(self, call) == 0
 
 
-def is_rooted(self: Evaluator, call: Call) -> bool:
+def is_rooted(self: Evaluator, call: FunctionCall) -> bool:
     """Whether a record is nearer to the root than the one to which its component relates it."""
     depth, graph, node = _depth(self, call), graph_of(self), _records(self, call)[0]
     pairs = [pair for pair in graph.branches if node in pair]
     return all(depth <= graph.depth[end] for pair in pairs for end in pair)
 
 
-def graph_of(self: Evaluator) -> Graph:
+def graph_of(self: Evaluator) -> ConnectionGraph:
     """The graph of the whole model."""
     build: Any = self.frame.build
     if build is None:
@@ -102,11 +102,11 @@ def graph_of(self: Evaluator) -> Graph:
     return build.graph
 
 
-def _depth(self: Evaluator, call: Call) -> int:
+def _depth(self: Evaluator, call: FunctionCall) -> int:
     return graph_of(self).depth.get(_records(self, call)[0], 0)
 
 
-def _records(self: Evaluator, call: Call) -> list[Component]:
+def _records(self: Evaluator, call: FunctionCall) -> list[Component]:
     before, self.connecting = self.connecting, True
     count = 2 if call.function.words[-1] == "branch" else 1
     found = [self.value(a) for a in call.arguments[:count]]

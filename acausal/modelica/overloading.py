@@ -11,14 +11,20 @@ import numpy as np
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.operators import Frame
-from acausal.modelica.syntax import Call, ClassDefinition, Constant, Expression, Name
+from acausal.modelica.syntax import (
+    ClassDefinition,
+    DottedName,
+    Expression,
+    FunctionCall,
+    LiteralConstant,
+)
 from acausal.modelica.values import Record, array_of, each, is_record
 
 
 class Overloading(Evaluator):
     """Applies operators to records, and makes records of their fields."""
 
-    def inlined(self, node: ClassNode, call: Call) -> list[Any]:
+    def inlined(self, node: ClassNode, call: FunctionCall) -> list[Any]:
         """The results of a function."""
         raise NotImplementedError
 
@@ -102,7 +108,7 @@ class Overloading(Evaluator):
                 return function
         return None
 
-    def _takes(self, function: ClassNode, name: Name, value: Any) -> bool:
+    def _takes(self, function: ClassNode, name: DottedName, value: Any) -> bool:
         """Whether an input of a type takes a value: a record for a record, a number for a number."""
         found, _ = Frame(function).find(name.words)
         return (isinstance(found, ClassNode) and found.definition.kind == "record") is is_record(
@@ -110,7 +116,7 @@ class Overloading(Evaluator):
         )
 
     def _called(self, function: ClassNode, given: Sequence[Any], named: dict[str, Any]) -> Any:
-        arguments: list[Expression] = [Constant(v, self.at) for v in given]
-        more: dict[str, Expression] = {k: Constant(v, self.at) for k, v in named.items()}
-        name = Name((function.definition.name,), {}, self.at)
-        return self.inlined(function, Call(name, arguments, more, self.at))[0]
+        arguments: list[Expression] = [LiteralConstant(v, self.at) for v in given]
+        more: dict[str, Expression] = {k: LiteralConstant(v, self.at) for k, v in named.items()}
+        name = DottedName((function.definition.name,), {}, self.at)
+        return self.inlined(function, FunctionCall(name, arguments, more, self.at))[0]

@@ -17,13 +17,13 @@ from acausal.modelica.meanings import Literal
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import (
     Branches,
-    Call,
     Connect,
     Do,
-    Equation,
+    DottedName,
+    EquationStatement,
     Expression,
+    FunctionCall,
     Loop,
-    Name,
     Several,
     Statement,
 )
@@ -49,7 +49,7 @@ LARGE = 1000
 """A value of so many parts, at least, is kept as a variable between two statements of an algorithm."""
 
 
-class Reader(Connecting):
+class SectionReader(Connecting):
     """Reads the statements of one section."""
 
     jumps: list[Reinit] | None = None
@@ -64,7 +64,7 @@ class Reader(Connecting):
             self.at = statement.at
             self.operations = 0
             match statement:
-                case Equation():
+                case EquationStatement():
                     yield from self._equation(statement)
                 case Loop():
                     for _ in self.repeated(statement):
@@ -78,10 +78,10 @@ class Reader(Connecting):
                 case Do() | Connect():
                     pass
 
-    def _equation(self, statement: Equation) -> Iterator[Eq]:
+    def _equation(self, statement: EquationStatement) -> Iterator[Eq]:
         left, right = statement.left, statement.right
         if isinstance(left, Several):
-            if not isinstance(right, Call):
+            if not isinstance(right, FunctionCall):
                 raise self.wrong("several results are those of a function")
             for target, value in zip(left.items, self.results(right), strict=False):
                 if target is not None:
@@ -202,7 +202,7 @@ class Reader(Connecting):
         for statement in body:
             self.at = statement.at
             match statement:
-                case Equation():
+                case EquationStatement():
                     for equation in self._equation(statement):
                         if not isinstance(equation.lhs, Reference):
                             raise self.wrong("an equation within 'when' is 'variable = value'")
@@ -239,7 +239,7 @@ class Reader(Connecting):
             values = [_value(side[target]) if target in side else pre(target) for side in sides]
             yield kind(target, self.chosen(holds, *values))
 
-    def _reinit(self, call: Call) -> Iterator[Reinit]:
+    def _reinit(self, call: FunctionCall) -> Iterator[Reinit]:
         state, value = self.arguments(call, 2)
         if np.shape(state) != np.shape(value):
             raise self.wrong("reinit takes a state and a value of the same size")
@@ -249,7 +249,7 @@ class Reader(Connecting):
             except DeclarationError as error:
                 raise self.wrong(str(error)) from None
 
-    def perform(self, call: Call) -> None:
+    def perform(self, call: FunctionCall) -> None:
         """A call that stands alone: an assertion, or the jump of a state in an algorithm."""
         word = call.function.text
         if word == "reinit" and self.jumps is not None:
@@ -357,11 +357,11 @@ def collect(stated: Sequence[Statement], found: set[str], within: bool) -> None:
     """Names that statements assign; unless already ``within``, those in ``when`` only."""
     for statement in stated:
         match statement:
-            case Equation() if within:
-                named = isinstance(statement.left, Name | Several)
+            case EquationStatement() if within:
+                named = isinstance(statement.left, DottedName | Several)
                 left = statement.left if named else statement.right
                 targets = left.items if isinstance(left, Several) else [left]
-                found |= {t.words[0] for t in targets if isinstance(t, Name)}
+                found |= {t.words[0] for t in targets if isinstance(t, DottedName)}
             case Branches():
                 for _, body in statement.branches:
                     collect(body, found, within or statement.word == "when")

@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal.modelica.connecting import ends_of
 from acausal.modelica.modifications import Bound
-from acausal.modelica.sections import Reader, collect
+from acausal.modelica.sections import SectionReader, collect
 from acausal.modelica.values import (
     as_array,
     elements,
@@ -35,9 +35,9 @@ def equations(build: Any) -> Iterator[Any]:
     for part, path, bound in build.bindings:
         stated += _bound(part, path, bound)
     for local, symbol in build.given_inwards:
-        stated += Reader(build.frame(build.node)).pairs(local, symbol)
+        stated += SectionReader(build.frame(build.node)).pairs(local, symbol)
     for edge in build.edges:
-        stated += Reader(build.frame(build.node)).related(edge)
+        stated += SectionReader(build.frame(build.node)).related(edge)
     yield from _oriented(stated, build)
 
 
@@ -86,16 +86,16 @@ def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
     """What the sections of two kinds state, in the order of the text."""
     for kind, stated, node in build.node.view().sections:
         if kind == equations:
-            yield from Reader(build.frame(node)).stated(stated)
+            yield from SectionReader(build.frame(node)).stated(stated)
         elif kind == algorithms:
-            yield from Reader(build.frame(node)).algorithm(stated)
+            yield from SectionReader(build.frame(node)).algorithm(stated)
 
 
 def connect(build: Any) -> None:
     """Make the connections of a component."""
     for kind, stated, node in build.node.view().sections:
         if kind == "equations":
-            Reader(build.frame(node)).connections(stated)
+            SectionReader(build.frame(node)).connections(stated)
 
 
 def check(build: Any) -> None:
@@ -170,7 +170,7 @@ def fed_by_connections(build: Any) -> frozenset[str]:
 
 
 def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
-    reader = Reader(bound.frame)
+    reader = SectionReader(bound.frame)
     reader.at = bound.expression.at
     yield from reader.pairs(_target(part, path), bound.value())
 

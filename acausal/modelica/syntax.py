@@ -10,7 +10,7 @@ from acausal.modeling import Placement
 
 
 @dataclass(slots=True, eq=False)
-class Constant:
+class LiteralConstant:
     """A number, truth value or text."""
 
     value: Any
@@ -18,7 +18,7 @@ class Constant:
 
 
 @dataclass(slots=True, eq=False)
-class Name:
+class DottedName:
     """A reference such as ``a.b[2].c``: words, and the subscripts of those that have some."""
 
     words: tuple[str, ...]
@@ -32,10 +32,10 @@ class Name:
 
 
 @dataclass(slots=True, eq=False)
-class Call:
+class FunctionCall:
     """A function applied; ``partial`` for ``function f(...)`` as an argument."""
 
-    function: Name
+    function: DottedName
     arguments: list[Expression]
     named: dict[str, Expression]
     at: int
@@ -43,7 +43,7 @@ class Call:
 
 
 @dataclass(slots=True, eq=False)
-class Operation:
+class OperatorExpression:
     """An operator and what it is applied to, one or two."""
 
     operator: str
@@ -61,7 +61,7 @@ class Choice:
 
 
 @dataclass(slots=True, eq=False)
-class Array:
+class ArrayConstructor:
     """``{a, b}``."""
 
     items: list[Expression]
@@ -69,7 +69,7 @@ class Array:
 
 
 @dataclass(slots=True, eq=False)
-class Matrix:
+class MatrixConstructor:
     """``[a, b; c, d]``."""
 
     rows: list[list[Expression]]
@@ -77,7 +77,7 @@ class Matrix:
 
 
 @dataclass(slots=True, eq=False)
-class Range:
+class RangeExpression:
     """``first:step:last``."""
 
     first: Expression
@@ -111,25 +111,25 @@ class Whole:
 
 
 @dataclass(slots=True, eq=False)
-class End:
+class EndSubscript:
     """``end`` in a subscript."""
 
     at: int
 
 
 Expression: TypeAlias = (
-    Constant
-    | Name
-    | Call
-    | Operation
+    LiteralConstant
+    | DottedName
+    | FunctionCall
+    | OperatorExpression
     | Choice
-    | Array
-    | Matrix
-    | Range
+    | ArrayConstructor
+    | MatrixConstructor
+    | RangeExpression
     | Comprehension
     | Several
     | Whole
-    | End
+    | EndSubscript
 )
 
 
@@ -137,19 +137,19 @@ Expression: TypeAlias = (
 
 
 @dataclass(slots=True, eq=False)
-class Modifier:
+class ModificationSyntax:
     """``(a=1, b(start=2)) = value``."""
 
-    arguments: list[Argument] = field(default_factory=list)
+    arguments: list[ModificationArgument] = field(default_factory=list)
     value: Expression | None = None
 
 
 @dataclass(slots=True, eq=False)
-class Argument:
+class ModificationArgument:
     """One argument of a modifier: a name with a modifier of its own, or a declaration that replaces one."""
 
     name: str
-    modifier: Modifier
+    modifier: ModificationSyntax
     at: int
     each: bool = False
     final: bool = False
@@ -173,8 +173,8 @@ class Import:
 class Extends:
     """``extends Base(modifiers)``."""
 
-    base: Name
-    modifier: Modifier
+    base: DottedName
+    modifier: ModificationSyntax
     at: int
 
 
@@ -201,9 +201,9 @@ class Declared:
     """One component."""
 
     name: str
-    type: Name
+    type: DottedName
     subscripts: list[Expression]
-    modifier: Modifier
+    modifier: ModificationSyntax
     condition: Expression | None
     prefixes: Prefixes
     comment: str
@@ -235,7 +235,7 @@ class ClassDefinition:
     extends_inherited: bool = False
     comment: str = ""
     elements: list[Import | Extends | Declared | ClassDefinition] = field(default_factory=list)
-    short: Short | None = None
+    short: ShortClass | None = None
     literals: dict[str, str] | None = None
     equations: list[Statement] = field(default_factory=list)
     initial_equations: list[Statement] = field(default_factory=list)
@@ -247,12 +247,12 @@ class ClassDefinition:
 
 
 @dataclass(slots=True, eq=False)
-class Short:
+class ShortClass:
     """``= input Base[n](modifiers)``."""
 
-    base: Name
+    base: DottedName
     subscripts: list[Expression]
-    modifier: Modifier
+    modifier: ModificationSyntax
     causality: str
     connection: str
 
@@ -263,7 +263,7 @@ Element: TypeAlias = Import | Extends | Declared | ClassDefinition
 
 
 @dataclass(slots=True, eq=False)
-class Equation:
+class EquationStatement:
     """``left = right``, or in an algorithm ``left := right``."""
 
     left: Expression
@@ -294,7 +294,7 @@ class Loop:
 class Connect:
     """``connect(a, b)``."""
 
-    ends: tuple[Name, Name]
+    ends: tuple[DottedName, DottedName]
     at: int
 
 
@@ -302,8 +302,8 @@ class Connect:
 class Do:
     """A call that stands alone, such as ``assert(...)``; or ``break`` and ``return``."""
 
-    call: Call
+    call: FunctionCall
     at: int
 
 
-Statement: TypeAlias = Equation | Branches | Loop | Connect | Do
+Statement: TypeAlias = EquationStatement | Branches | Loop | Connect | Do

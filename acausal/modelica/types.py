@@ -11,7 +11,7 @@ from acausal.modelica.classes import ClassNode
 from acausal.modelica.meanings import Native, Predefined, Prefix, Value
 from acausal.modelica.modifications import Bound, Given, given_by
 from acausal.modelica.operators import Frame
-from acausal.modelica.syntax import Argument, Declared, Expression
+from acausal.modelica.syntax import Declared, Expression, ModificationArgument
 from acausal.modeling import Component, Connector, Input, Output
 
 ATTRIBUTES = ("start", "fixed", "nominal", "stateSelect", "unit", "min", "max")
@@ -41,7 +41,7 @@ class Type:
     node: ClassNode | None = None
     predefined: str = ""
     attributes: dict[str, Any] = field(default_factory=dict[str, Any])
-    arguments: Sequence[tuple[Argument, ClassNode]] = ()
+    arguments: Sequence[tuple[ModificationArgument, ClassNode]] = ()
     causality: str = ""
     connection: str = ""
     subscripts: Sequence[tuple[Expression, ClassNode]] = ()

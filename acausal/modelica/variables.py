@@ -10,7 +10,7 @@ import numpy as np
 from acausal.modelica import statements
 from acausal.modelica.classes import Entry
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.library_parts import Values, grouped
+from acausal.modelica.library_parts import ModifierValues, grouped
 from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Bound, Modification
 from acausal.modelica.operators import Frame
@@ -70,7 +70,7 @@ def declare(
         if isinstance(start.get(key), np.ndarray):
             start[key] = _common(entry, key, start[key])
     if start:
-        scope = Values()
+        scope = ModifierValues()
         build.component.modify(
             **{name: scope.start({k: nested(v) for k, v in start.items()}, name)}
         )

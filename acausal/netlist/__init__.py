@@ -6,7 +6,7 @@ It knows declarations and names of classes; no JAX, no flattening. Text is parse
 
 from acausal.netlist.arithmetic import Arithmetic as Arithmetic
 from acausal.netlist.file import MAX_BYTES as MAX_BYTES, NetlistError as NetlistError
-from acausal.netlist.finding import Found as Found, find as find
+from acausal.netlist.finding import FoundClasses as FoundClasses, find as find
 from acausal.netlist.grammar import Grammar as Grammar
 from acausal.netlist.library import (
     Library as Library,

@@ -72,7 +72,7 @@ class PublicClass:
         return MENTIONED if word in self.summary.lower() else None
 
 
-class Found(Sequence[type[Component] | type[Connector]]):
+class FoundClasses(Sequence[type[Component] | type[Connector]]):
     """Classes that `find` has found, the best first: ``found[0]`` is a class, and ``found`` prints a line for each."""
 
     def __init__(self, entries: Sequence[PublicClass]) -> None:
@@ -89,11 +89,11 @@ class Found(Sequence[type[Component] | type[Connector]]):
     @overload
     def __getitem__(self, index: int) -> type[Component] | type[Connector]: ...
     @overload
-    def __getitem__(self, index: slice) -> Found: ...
+    def __getitem__(self, index: slice) -> FoundClasses: ...
     def __getitem__(self, index: int | slice) -> Any:
         """A class, or some of those found."""
         if isinstance(index, slice):
-            return Found(self.entries[index])
+            return FoundClasses(self.entries[index])
         return self.entries[index].cls
 
     def __repr__(self) -> str:
@@ -106,7 +106,7 @@ class Found(Sequence[type[Component] | type[Connector]]):
         )
 
 
-def find(text: str = "", *, unit: str | None = None) -> Found:
+def find(text: str = "", *, unit: str | None = None) -> FoundClasses:
     """Search the installed libraries for components and connectors.
 
     Arguments:
@@ -131,7 +131,7 @@ def find(text: str = "", *, unit: str | None = None) -> Found:
         if None not in ranks and (wanted is None or wanted in entry.units):
             best = max((rank for rank in ranks if rank is not None), default=0)
             ranked.append(((entry.is_base, best, entry.name), entry))
-    return Found([entry for _, entry in sorted(ranked, key=lambda pair: pair[0])])
+    return FoundClasses([entry for _, entry in sorted(ranked, key=lambda pair: pair[0])])
 
 
 @cache

@@ -17,7 +17,7 @@ MAX_DEPTH = 60
 """So deep may expressions be nested."""
 
 
-class Tokens:
+class FormulaTokens:
     """The tokens of a text, and how far they are read.
 
     Attributes:
@@ -61,7 +61,7 @@ class Tokens:
             raise self.wrong(f"'{expected}' expected, {self.found} found")
 
 
-class Grammar(Tokens):
+class Grammar(FormulaTokens):
     """Reads operators and their operands."""
 
     depth: int = 0

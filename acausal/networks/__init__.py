@@ -25,8 +25,8 @@ from acausal.networks.extrapolation import (
 from acausal.networks.fourier import Fourier as Fourier
 from acausal.networks.from_data import (
     Affine as Affine,
+    LawShape as LawShape,
     Scales as Scales,
-    Shape as Shape,
     lacks_scales as lacks_scales,
     linear_shape as linear_shape,
     with_scales as with_scales,

@@ -40,7 +40,7 @@ class Scales(NamedTuple):
     output: float
 
 
-class Shape(NamedTuple):
+class LawShape(NamedTuple):
     """What a linear law must be like to stand beside a network without breaking its promises.
 
     Attributes:
@@ -67,7 +67,7 @@ def lacks_scales(network: object) -> bool:
     return any(name in getattr(network, "left_open", ()) for name in SCALES)
 
 
-def linear_shape(network: Any) -> Shape:
+def linear_shape(network: Any) -> LawShape:
     """What linear law can stand beside a network that lacks scales."""
     promised = kept_promises(network)
     energy = isinstance(network, EnergyLaw)
@@ -77,9 +77,9 @@ def linear_shape(network: Any) -> Shape:
         inner = inner.net
     every = int(inner.in_size)
     if "positive" in promised:
-        return Shape(0, every, False, False, False, False, positive=True)
+        return LawShape(0, every, False, False, False, False, positive=True)
     inputs = network.inputs if energy else (1 if zero or rising else every)
-    return Shape(inputs, every, rising, zero, energy, _own_start(network) is not None)
+    return LawShape(inputs, every, rising, zero, energy, _own_start(network) is not None)
 
 
 def with_scales(
@@ -163,7 +163,7 @@ def _(network: Any, settings: Mapping[str, str]) -> Any:
     return replace(with_scales(network, Scales(middle, reach, output), Affine(slope)), **values)
 
 
-def _beside(net: Any, shape: Shape, slope: list[float], offset: float) -> Any:
+def _beside(net: Any, shape: LawShape, slope: list[float], offset: float) -> Any:
     """The network beside a linear law, in numbers about one."""
     if shape.divides or shape.positive:
         return net

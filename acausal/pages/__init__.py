@@ -7,7 +7,7 @@ method ``page_content``, as `Fit` does.
 
 from acausal.pages.components import (
     Known as Known,
-    Law as Law,
+    LearnedLaw as LearnedLaw,
     component_cards as component_cards,
     schematic as schematic,
 )

@@ -21,7 +21,7 @@ from acausal.pages.trajectories import plot_of_runs, plots_by_unit
 from acausal.reporting import (
     Block,
     Card,
-    Equations,
+    EquationList,
     Plot,
     Table,
     Text,
@@ -49,7 +49,7 @@ Numbers = Float[np.ndarray, " n"]
 
 
 @dataclass(frozen=True)
-class Law:
+class LearnedLaw:
     """What was learned by a network, for the card of its component."""
 
     network: str
@@ -71,7 +71,7 @@ class Known:
     changes: Mapping[str, tuple[str, str]] = field(default_factory=dict[str, tuple[str, str]])
     runs: Mapping[str, Solution] = field(default_factory=dict[str, Solution])
     over: str = ""
-    laws: Sequence[Law] = ()
+    laws: Sequence[LearnedLaw] = ()
 
 
 def schematic(component: Component) -> str:
@@ -191,13 +191,13 @@ class _Book:
             (e.lhs, e.rhs) if isinstance(e, Eq) else str(e) for e in stated[:MOST_EQUATIONS]
         )
         if shown:
-            yield Equations(shown)
+            yield EquationList(shown)
         if len(stated) > len(shown):
             yield Text(f"These are the first {len(shown)} of {len(stated)}.")
         if not path and 0 < len(self.system.states) <= MOST_STATES:
             explicit = tuple((e.lhs, e.rhs) for e in self.system.equations)
             yield Text("The differential equations that follow from the connected components:")
-            yield Equations(explicit)
+            yield EquationList(explicit)
 
     def _parameters(self, number: int) -> Table | None:
         layout = self.system.flat.layout

@@ -30,7 +30,7 @@ class Power:
 
 
 @dataclass(frozen=True, eq=False)
-class Energy:
+class EnergyOverTime:
     """Energies over time since the start [J].
 
     Attributes:
@@ -60,7 +60,9 @@ def powers(path: str, connectors: Mapping[str, type[Connector]]) -> tuple[Power,
     return tuple(found) or None
 
 
-def energy(component: Component, t: Numbers, powers: Numbers, loss: Numbers | None) -> Energy:
+def energy(
+    component: Component, t: Numbers, powers: Numbers, loss: Numbers | None
+) -> EnergyOverTime:
     """Energies from the power that a component takes up and, where it is known, the power that it loses.
 
     A component keeps what it takes up where its equations hold a derivative, or where its flow follows from a position;
@@ -75,7 +77,7 @@ def energy(component: Component, t: Numbers, powers: Numbers, loss: Numbers | No
     taken = integrated(t, powers)
     if loss is not None:
         lost = integrated(t, loss)
-        return Energy(taken, lost, taken - lost)
+        return EnergyOverTime(taken, lost, taken - lost)
     nothing = np.zeros_like(taken)
     law = own_law(component)
     if law is not None and law.reads:
@@ -83,13 +85,13 @@ def energy(component: Component, t: Numbers, powers: Numbers, loss: Numbers | No
         dissipates = frozenset({"rate"} if of_positions else {"across"})
         stores = frozenset({"across"} if of_positions else {"derivative"})
         if law.reads == dissipates:
-            return Energy(taken, taken, nothing)
+            return EnergyOverTime(taken, taken, nothing)
         if law.reads == stores:
-            return Energy(taken, nothing, taken)
-        return Energy(taken, None, None)
+            return EnergyOverTime(taken, nothing, taken)
+        return EnergyOverTime(taken, None, None)
     if law is None and _holds_derivative(component):
-        return Energy(taken, nothing, taken)
-    return Energy(taken, None, None)
+        return EnergyOverTime(taken, nothing, taken)
+    return EnergyOverTime(taken, None, None)
 
 
 def integrated(t: Numbers, y: Numbers) -> Numbers:

@@ -12,7 +12,7 @@ from acausal.reporting.document.content import (
     Card as Card,
     Curve as Curve,
     Drawing as Drawing,
-    Equations as Equations,
+    EquationList as EquationList,
     Moving as Moving,
     PageContent as PageContent,
     Plot as Plot,

@@ -61,7 +61,7 @@ class UncertainCurve(Protocol):
         ...
 
 
-class History(Protocol):
+class HistoryLike(Protocol):
     """What happened over the updates of a training, such as `Fit.history`; losses in rows (epochs done, loss)."""
 
     @property
@@ -94,7 +94,7 @@ class WithHistory(Protocol):
     """A result of a training, such as `Fit`."""
 
     @property
-    def history(self) -> History:
+    def history(self) -> HistoryLike:
         """What happened."""
         ...
 
@@ -148,7 +148,7 @@ def plot_band(ax: Axes, law: UncertainCurve, *, color: str = LEARNED[0], label: 
 
 
 def plot_losses(
-    ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, float] | None = None
+    ax: Axes, histories: Mapping[str, HistoryLike], *, levels: Mapping[str, float] | None = None
 ) -> None:
     """Draw losses over epochs: of the batches (thin), over the whole record (dots) and of held-out samples (squares).
 

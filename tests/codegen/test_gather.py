@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from acausal.codegen.gather import MAX_RUNS, Interleaved, One, Runs, Take, gather
+from acausal.codegen.gather import MAX_RUNS, IndexRuns, Interleaved, One, Take, gather
 from acausal.codegen.reading import read_elements
 
 ARRAYS = [jnp.arange(10.0), jnp.arange(100.0, 120.0), jnp.array(7.0), jnp.arange(5.0) * 10]
@@ -44,9 +44,9 @@ def test_elements_are_read_whatever_their_order(pairs):
     [
         ([(0, 3)] * 4, One),
         ([(2, 0)], One),
-        ([(0, i) for i in range(10)], Runs),
-        ([(1, i) for i in range(0, 20, 3)], Runs),
-        ([(0, 1), (0, 2), (1, 5), (1, 7)], Runs),
+        ([(0, i) for i in range(10)], IndexRuns),
+        ([(1, i) for i in range(0, 20, 3)], IndexRuns),
+        ([(0, 1), (0, 2), (1, 5), (1, 7)], IndexRuns),
         ([(s, i) for i in range(10) for s in (0, 1)], Interleaved),
         ([(0, i) if s else (1, 19 - i) for i in range(10) for s in (1, 0)], Take),
         ([(1, (7 * i * i + 3 * i) % 20) for i in range(20)], Take),

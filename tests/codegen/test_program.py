@@ -8,7 +8,7 @@ import pytest
 
 import acausal as ac
 from acausal.codegen.gather import gather
-from acausal.codegen.instructions import Formula, SolveTornLoop
+from acausal.codegen.instructions import ArrayFormula, SolveTornLoop
 from acausal.components import translational as tl
 from examples.qvm.model import with_networks
 from tests.support.parts import Equations
@@ -103,7 +103,7 @@ def test_positions_are_those_that_were_gathered(n):
 
 
 def test_expressions_are_sympy(vehicle):
-    explicit = [i for i in vehicle.program.instructions if isinstance(i, Formula)]
+    explicit = [i for i in vehicle.program.instructions if isinstance(i, ArrayFormula)]
     assert any("c*s_rel" in i.text for i in explicit)
 
 

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 import acausal as ac
-from acausal.command.output import Output
+from acausal.command.output import CommandOutput
 
 HEADER, ROWS = ("name", "unit"), [("m[1].s", "m"), ("m[12].v", "m/s")]
 
@@ -20,7 +20,7 @@ class Terminal(io.StringIO):
 
 
 def test_columns_in_a_pipe(capsys: pytest.CaptureFixture[str]) -> None:
-    Output().table(HEADER, ROWS)
+    CommandOutput().table(HEADER, ROWS)
     assert capsys.readouterr().out == "  name     unit\n  m[1].s   m\n  m[12].v  m/s\n"
 
 
@@ -28,14 +28,14 @@ def test_tables_in_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     """Names with brackets are no markup."""
     monkeypatch.setattr(sys, "stdout", terminal := Terminal())
     monkeypatch.setenv("TERM", "xterm-256color")
-    Output().title("states")
-    Output().table(HEADER, ROWS)
+    CommandOutput().title("states")
+    CommandOutput().table(HEADER, ROWS)
     assert "\x1b[" in terminal.getvalue()
     assert "m[12].v" in terminal.getvalue()
 
 
 def test_warnings_and_errors(capsys: pytest.CaptureFixture[str]) -> None:
-    out = Output(as_json=True)
+    out = CommandOutput(as_json=True)
     out.warn("a gap")
     out.say("for people")
     assert out.fail(ac.DataError("no data")) == 4
@@ -48,5 +48,5 @@ def test_warnings_and_errors(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_numbers_that_json_does_not_know(capsys: pytest.CaptureFixture[str]) -> None:
-    Output(as_json=True).result({"values": [1.0, float("nan"), float("inf")]})
+    CommandOutput(as_json=True).result({"values": [1.0, float("nan"), float("inf")]})
     assert json.loads(capsys.readouterr().out)["values"] == [1.0, None, None]

@@ -8,14 +8,14 @@ import pytest
 from acausal.modelica import ModelicaError, Source, parse, read_source
 from acausal.modelica.syntax import (
     Branches,
-    Call,
     Choice,
     Comprehension,
     Connect,
     Declared,
     Do,
-    Equation,
+    EquationStatement,
     Extends,
+    FunctionCall,
     Import,
     Loop,
 )
@@ -77,7 +77,14 @@ def test_every_form_of_the_language_is_read() -> None:
     assert classes["Mode"].literals == {"off": "off", "on": "on"}
     assert classes["h"].external == "h_"
     model = classes["M"]
-    assert [type(s) for s in model.equations] == [Connect, Branches, Branches, Loop, Do, Equation]
+    assert [type(s) for s in model.equations] == [
+        Connect,
+        Branches,
+        Branches,
+        Loop,
+        Do,
+        EquationStatement,
+    ]
     declared = {e.name: e for e in model.elements if isinstance(e, Declared)}
     assert isinstance(declared["u"].modifier.value, Choice)
     assert declared["n"].prefixes.inner
@@ -88,7 +95,7 @@ def test_every_form_of_the_language_is_read() -> None:
     assert package.source.text[model.at :].startswith("M extends")
     (loop,) = [s for s in model.equations if isinstance(s, Loop)]
     total = loop.body[0].right.operands[0]  # pyright: ignore[reportAttributeAccessIssue]
-    assert isinstance(total, Call)
+    assert isinstance(total, FunctionCall)
     assert isinstance(total.arguments[0], Comprehension)
 
 

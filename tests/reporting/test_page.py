@@ -12,7 +12,7 @@ import pytest
 from acausal.reporting import (
     Card,
     Curve,
-    Equations,
+    EquationList,
     PageContent,
     Plot,
     Section,
@@ -180,7 +180,9 @@ def test_a_curve_is_broken_where_samples_are_missing():
 
 def test_events_are_written_as_text():
     text = render(
-        PageContent("A", "", "", (), (Tab("B", (Section("C", (Equations(("when x > 0",)),)),)),)),
+        PageContent(
+            "A", "", "", (), (Tab("B", (Section("C", (EquationList(("when x > 0",)),)),)),)
+        ),
         "",
     )
     assert "<code>when x &gt; 0</code>" in text

@@ -8,7 +8,7 @@ import sympy as sp
 from acausal.reporting import (
     Card,
     Curve,
-    Equations,
+    EquationList,
     PageContent,
     Plot,
     Section,
@@ -33,7 +33,7 @@ def content(name: str = "spring") -> PageContent:
         _card(
             name,
             [
-                Equations(((sp.Symbol("f"), 3 * x),)),
+                EquationList(((sp.Symbol("f"), 3 * x),)),
                 table(("parameter", "value", "meaning"), [("c", "3", name)]),
                 wave("card", name),
                 wave("card", "other"),

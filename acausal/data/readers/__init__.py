@@ -1,6 +1,6 @@
 """Files and tables of other libraries, as tables of measured samples and back.
 
-In: paths, pandas and xarray objects. Out: `Table`. What makes a record of one is `acausal.Data`.
+In: paths, pandas and xarray objects. Out: `SignalTable`. What makes a record of one is `acausal.Data`.
 """
 
 from acausal.data.readers.csv_file import read_csv as read_csv
@@ -17,7 +17,7 @@ from acausal.data.readers.mat_file import read_mat as read_mat
 from acausal.data.readers.mdf_file import read_mdf as read_mdf
 from acausal.data.readers.table import (
     Selection as Selection,
-    Table as Table,
+    SignalTable as SignalTable,
     seconds as seconds,
 )
 from acausal.data.readers.xarray_dataset import dataset as dataset, read_xarray as read_xarray

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from acausal.data.readers.csv_dialect import Dialect, dialect_of
-from acausal.data.readers.table import Selection, Table, headers, need_time
+from acausal.data.readers.table import Selection, SignalTable, headers, need_time
 from acausal.errors import DataError, reason
 
 LINES = 50_000
@@ -32,7 +32,7 @@ def read_csv(
     separator: str | None = None,
     decimal: str | None = None,
     encoding: str = "utf-8-sig",
-) -> Table | dict[str, Table]:
+) -> SignalTable | dict[str, SignalTable]:
     """A table from a file whose first line that is not blank names the columns; or one of each run, by name.
 
     Raises:
@@ -57,7 +57,7 @@ def read_csv(
 
 def _read(
     file: TextIO, path: Path, selection: Selection, separator: str | None, decimal: str | None
-) -> Table | dict[str, Table]:
+) -> SignalTable | dict[str, SignalTable]:
     lines = enumerate(file, 1)
     number, header = next(((n, line) for n, line in lines if line.strip()), (0, ""))
     if not number:
@@ -78,7 +78,7 @@ def _read(
     unit_of_time = {"time": units[selection.time]} if selection.time in units else {}
     units = {n: u for n, u in units.items() if n != selection.time} | unit_of_time
 
-    def table(rows: Int[np.ndarray, " rows"], source: str) -> Table:
+    def table(rows: Int[np.ndarray, " rows"], source: str) -> SignalTable:
         columns = dict(zip(chosen, values[rows].T, strict=True))
         return selection.table(
             columns.pop(selection.time),

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.data.readers.table import (
     Selection,
-    Table,
+    SignalTable,
     headers,
     library,
     need_column,
@@ -30,7 +30,7 @@ def is_data_frame(thing: object) -> TypeGuard[DataFrame]:
     return pandas is not None and isinstance(thing, pandas.DataFrame)
 
 
-def read_data_frame(frame: object, selection: Selection, source: str = "") -> Table:
+def read_data_frame(frame: object, selection: Selection, source: str = "") -> SignalTable:
     """A table from a data frame with the times in a column, or as its index.
 
     Raises:
@@ -64,7 +64,9 @@ def need_unique(frame: DataFrame, what: str) -> None:
         raise DataError(f"{what} has two columns '{doubled}'.")
 
 
-def read_runs(frame: object, selection: Selection, source: str = "") -> Table | dict[str, Table]:
+def read_runs(
+    frame: object, selection: Selection, source: str = ""
+) -> SignalTable | dict[str, SignalTable]:
     """`read_data_frame`, with a table of each run where the selection has a column that names them."""
     if selection.group is None or not is_data_frame(frame):
         return read_data_frame(frame, selection, source)
@@ -82,7 +84,7 @@ def frame_units(signals: object) -> dict[str, str] | None:
     return _units(signals, {n: n for n in signals.columns if isinstance(n, str)}) or None
 
 
-def read_parquet(path: Path, selection: Selection) -> Table | dict[str, Table]:
+def read_parquet(path: Path, selection: Selection) -> SignalTable | dict[str, SignalTable]:
     """A table, or one of each run, from a Parquet file; the units are those that its data frame had."""
     pandas = library("pandas", "parquet", "A Parquet file")
     library("pyarrow", "parquet", "A Parquet file")

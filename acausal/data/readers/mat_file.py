@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, Table, library, need_time
+from acausal.data.readers.table import Selection, SignalTable, library, need_time
 from acausal.errors import DataError, listing, reason, shown
 
 HDF = b"\x89HDF\r\n\x1a\n"
@@ -16,7 +16,7 @@ HDF_STARTS_AT = (0, 512)
 """MATLAB writes a block of 512 bytes before what is HDF5."""
 
 
-def read_mat(path: Path, selection: Selection) -> Table:
+def read_mat(path: Path, selection: Selection) -> SignalTable:
     """A table from the vectors of a MAT file; those in structures are called ``structure.field``.
 
     Without a choice of columns it has every vector that is as long as the times.

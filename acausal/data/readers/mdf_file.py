@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, Table, library
+from acausal.data.readers.table import Selection, SignalTable, library
 from acausal.errors import DataError, listing, reason, shown
 
 STARTS = (b"MDF     ", b"UnFinMF ")
 """What a finished file begins with, and one whose writing was broken off."""
 
 
-def read_mdf(path: Path, selection: Selection) -> Table:
+def read_mdf(path: Path, selection: Selection) -> SignalTable:
     """A table of channels with their own times.
 
     A channel whose name occurs in several groups is called ``name@group``. Without a choice of columns the table has

@@ -19,7 +19,7 @@ HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
 
 
 @dataclass(frozen=True)
-class Table:
+class SignalTable:
     """Signals as read.
 
     Arguments:
@@ -78,10 +78,10 @@ class Selection:
         units: Mapping[str, str],
         source: str = "",
         place: Place = sample,
-    ) -> Table:
+    ) -> SignalTable:
         """The chosen signals under the names that they have in the record.
 
-        Arguments are those of `Table`, by the names of the source; only ``"time"`` is called so already.
+        Arguments are those of `SignalTable`, by the names of the source; only ``"time"`` is called so already.
 
         Raises:
             DataError: if two signals get one name.
@@ -100,7 +100,7 @@ class Selection:
             raise DataError(
                 f"units={shown(self.units)} has no names; give a unit by name: {{'mass.s': 'm'}}."
             )
-        return Table(time, renamed, {**found, **given}, source, place)
+        return SignalTable(time, renamed, {**found, **given}, source, place)
 
     def _name(self, column: str) -> str:
         name = (self.rename or {}).get(column, column)

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, Table, library, seconds
+from acausal.data.readers.table import Selection, SignalTable, library, seconds
 from acausal.errors import DataError, listing, shown
 
 
-def read_xarray(dataset: Any, selection: Selection) -> Table:
+def read_xarray(dataset: Any, selection: Selection) -> SignalTable:
     """A table from a data set whose variables have one dimension each, with the times as its coordinate.
 
     Units are those of ``attrs["units"]``.

@@ -30,7 +30,7 @@ Index: TypeAlias = tuple[Expr, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Array:
+class CArray:
     """An array, element by element.
 
     Attributes:
@@ -47,7 +47,7 @@ class Array:
     cost: int = 0
     stored: Buffer | None = None
     offset: int = 0
-    parts: tuple[int, tuple[tuple[int, Array], ...]] | None = None
+    parts: tuple[int, tuple[tuple[int, CArray], ...]] | None = None
 
     @property
     def size(self) -> int:
@@ -76,23 +76,23 @@ def unravelled(place: Expr, shape: Sequence[int]) -> Index:
     return tuple(found)
 
 
-def stored(buffer: Buffer, shape: tuple[int, ...], offset: int = 0) -> Array:
+def stored(buffer: Buffer, shape: tuple[int, ...], offset: int = 0) -> CArray:
     """An array that lies in a buffer."""
     if buffer.size is None:
-        return Array(shape, buffer.kind, lambda i: Read(buffer.name, None, buffer.kind))
+        return CArray(shape, buffer.kind, lambda i: Read(buffer.name, None, buffer.kind))
 
     def at(index: Index) -> Expr:
         return Read(buffer.name, add(linear(index, shape), integer(offset)), buffer.kind)
 
-    return Array(shape, buffer.kind, at, 0, buffer, offset)
+    return CArray(shape, buffer.kind, at, 0, buffer, offset)
 
 
-def uniform(value: Expr, shape: tuple[int, ...]) -> Array:
+def uniform(value: Expr, shape: tuple[int, ...]) -> CArray:
     """An array of equal elements."""
-    return Array(shape, value.kind, lambda i: value)
+    return CArray(shape, value.kind, lambda i: value)
 
 
-def constant(array: np.ndarray, table: Callable[[np.ndarray], Buffer]) -> Array:
+def constant(array: np.ndarray, table: Callable[[np.ndarray], Buffer]) -> CArray:
     """A known array: one number, a formula of the index, or a table.
 
     Arguments:
@@ -109,7 +109,7 @@ def constant(array: np.ndarray, table: Callable[[np.ndarray], Buffer]) -> Array:
         stride = int(flat[1] - flat[0])
         if (np.diff(flat) == stride).all():
             first = int(flat[0])
-            return Array(
+            return CArray(
                 array.shape,
                 "int",
                 lambda i: add(times(linear(i, array.shape), stride), integer(first)),
@@ -122,19 +122,19 @@ def constant(array: np.ndarray, table: Callable[[np.ndarray], Buffer]) -> Array:
         return lying.at(index)
 
     lying = stored(table(array), array.shape) if flat.size else uniform(integer(0), array.shape)
-    return Array(array.shape, kind, at, 0, lying.stored)
+    return CArray(array.shape, kind, at, 0, lying.stored)
 
 
 def _number(value: float, kind: str) -> Number:
     return Number({"real": float, "int": int, "bool": bool}[kind](value), kind)
 
 
-def viewed(source: Array, shape: Sequence[int], index: Callable[[Index], Index]) -> Array:
+def viewed(source: CArray, shape: Sequence[int], index: Callable[[Index], Index]) -> CArray:
     """The same elements under other indices."""
-    return Array(tuple(shape), source.kind, lambda i: source.at(index(i)), source.cost)
+    return CArray(tuple(shape), source.kind, lambda i: source.at(index(i)), source.cost)
 
 
-def reshaped(source: Array, shape: tuple[int, ...]) -> Array:
+def reshaped(source: CArray, shape: tuple[int, ...]) -> CArray:
     """The same elements, row by row, in another shape."""
     if source.stored is not None and source.stored.table is None:
         return stored(source.stored, shape, source.offset)
@@ -149,8 +149,8 @@ def reshaped(source: Array, shape: tuple[int, ...]) -> Array:
     return viewed(source, shape, lambda i: unravelled(linear(i, shape), source.shape))
 
 
-def converted(source: Array, kind: str) -> Array:
+def converted(source: CArray, kind: str) -> CArray:
     """The same numbers as another kind."""
     if source.kind == kind:
         return source
-    return Array(source.shape, kind, lambda i: convert(source.at(i), kind), source.cost)
+    return CArray(source.shape, kind, lambda i: convert(source.at(i), kind), source.cost)

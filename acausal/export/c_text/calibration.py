@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from acausal.export.traced import Atom, Block, Constant, Operation, Value
+from acausal.export.traced import Atom, TracedBlock, TracedConstant, TracedOperation, TracedValue
 
 VIEWS = frozenset({"slice", "squeeze", "reshape", "broadcast_in_dim", "split", "expand_dims"})
 """Operations that only say where numbers lie: they are not worth an array of their own."""
 
 
-def split(block: Block, parameters: Collection[Value]) -> tuple[Block, Block]:
+def split(
+    block: TracedBlock, parameters: Collection[TracedValue]
+) -> tuple[TracedBlock, TracedBlock]:
     """Two blocks with the same meaning: one for the parameters alone, one for the rest.
 
     Arguments:
@@ -21,21 +23,21 @@ def split(block: Block, parameters: Collection[Value]) -> tuple[Block, Block]:
         The first takes the parameters and gives some values; the second takes the block's inputs and these values.
     """
     fixed: set[Atom] = set(parameters)
-    operations: list[Operation] = []
-    early: list[Operation] = []
+    operations: list[TracedOperation] = []
+    early: list[TracedOperation] = []
     for operation in (o for each in block.operations for o in _turned(each, fixed)):
         operations.append(operation)
-        if all(isinstance(a, Constant) or a in fixed for a in operation.inputs):
+        if all(isinstance(a, TracedConstant) or a in fixed for a in operation.inputs):
             fixed.update(operation.outputs)
             early.append(operation)
     producer = {o: operation for operation in early for o in operation.outputs}
     late = {id(o) for o in operations} - {id(o) for o in early}
-    crossing: dict[Value, None] = {}
+    crossing: dict[TracedValue, None] = {}
     again: set[int] = set()
 
     def need(atom: Atom) -> None:
         """Make a value available after the split."""
-        if not isinstance(atom, Value) or atom not in producer:
+        if not isinstance(atom, TracedValue) or atom not in producer:
             return
         operation = producer[atom]
         if operation.name not in VIEWS and atom.kind == "real":
@@ -55,12 +57,12 @@ def split(block: Block, parameters: Collection[Value]) -> tuple[Block, Block]:
     known = tuple(crossing)
     inputs = tuple(i for i in block.inputs if i in set(parameters))
     return (
-        Block(inputs, tuple(early), ()).part(known),
-        Block((*block.inputs, *known), rest, block.outputs),
+        TracedBlock(inputs, tuple(early), ()).part(known),
+        TracedBlock((*block.inputs, *known), rest, block.outputs),
     )
 
 
-def _turned(operation: Operation, fixed: Collection[Atom]) -> list[Operation]:
+def _turned(operation: TracedOperation, fixed: Collection[Atom]) -> list[TracedOperation]:
     """A matrix of parameters times a vector: turned once, so that the sums run along memory."""
     if operation.name != "dot_general" or operation.inputs[0] not in fixed:
         return [operation]
@@ -70,10 +72,14 @@ def _turned(operation: Operation, fixed: Collection[Atom]) -> list[Operation]:
         return [operation]
     if 1 in matrix.shape:
         return [operation]
-    turned = Value((matrix.shape[1], matrix.shape[0]), matrix.kind)
-    turn = Operation("transpose", (matrix,), (turned,), {"permutation": (1, 0)}, operation.origin)
+    turned = TracedValue((matrix.shape[1], matrix.shape[0]), matrix.kind)
+    turn = TracedOperation(
+        "transpose", (matrix,), (turned,), {"permutation": (1, 0)}, operation.origin
+    )
     params = {**operation.params, "dimension_numbers": (((0,), cb), ((), ()))}
     return [
         turn,
-        Operation(operation.name, (turned, vector), operation.outputs, params, operation.origin),
+        TracedOperation(
+            operation.name, (turned, vector), operation.outputs, params, operation.origin
+        ),
     ]

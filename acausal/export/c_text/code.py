@@ -20,11 +20,11 @@ from acausal.export.c_text.events import (
     argument_sizes,
     event_functions,
 )
-from acausal.export.c_text.functions import Argument, Function, write_function
-from acausal.export.c_text.lowering import Memory
+from acausal.export.c_text.functions import CArgument, CFunction, write_function
+from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.statements import Buffer
 from acausal.export.ranges import Watch
-from acausal.export.traced import Block, Value, trace
+from acausal.export.traced import TracedBlock, TracedValue, trace
 from acausal.export.vector import ParameterVector
 from acausal.system import System
 
@@ -53,8 +53,8 @@ class Code:
         events: of the model, if it has any.
     """
 
-    functions: dict[str, Function]
-    memory: Memory
+    functions: dict[str, CFunction]
+    memory: Workspace
     sizes: Sizes
     events: Events | None
 
@@ -95,17 +95,19 @@ def write_code(
         "d": n_discrete,
     }
     common = [_argument(a, sizes[a]) for a in ARGUMENTS]
-    file = Memory(describe=partial(_origin, system))
+    file = Workspace(describe=partial(_origin, system))
     known = _Known()
-    functions: dict[str, Function] = {}
+    functions: dict[str, CFunction] = {}
 
     def values(t: Any, x: Any, u: Any, p: Any, d: Any) -> Values:
         return Values(t, x, u, vector.packed(p), d if n_discrete else None)
 
-    def block_of(function: Callable[..., Any], own: Sequence[Argument] = ()) -> Block:
+    def block_of(function: Callable[..., Any], own: Sequence[CArgument] = ()) -> TracedBlock:
         return known.split(trace(function, *(jnp.zeros(a.shape) for a in (*common, *own))))
 
-    def add(name: str, block: Block, results: Sequence[str], own: Sequence[Argument] = ()) -> None:
+    def add(
+        name: str, block: TracedBlock, results: Sequence[str], own: Sequence[CArgument] = ()
+    ) -> None:
         pairs = zip(results, block.outputs, strict=True)
         into = [(Buffer(result, "real", o.shape[0]), 0) for result, o in pairs]
         functions[name] = write_function(block, known.arguments(block, [*common, *own]), into, file)
@@ -163,8 +165,8 @@ def write_code(
 
 
 def _starts(
-    vector: ParameterVector, arguments: Sequence[Argument], file: Memory
-) -> Function | None:
+    vector: ParameterVector, arguments: Sequence[CArgument], file: Workspace
+) -> CFunction | None:
     """The states at the start, from time, inputs and parameters; None if they depend on none of these, or have no C."""
     system = vector.system
 
@@ -193,43 +195,43 @@ def _origin(system: System, stack: str) -> str:
     )
 
 
-def _argument(name: str, size: int | None) -> Argument:
+def _argument(name: str, size: int | None) -> CArgument:
     """An array of so many real numbers, or a single one."""
-    return Argument(Buffer(name, "real", size), () if size is None else (size,))
+    return CArgument(Buffer(name, "real", size), () if size is None else (size,))
 
 
 class _Known:
     """What depends on parameters alone: computed by ``recalibrate``, kept in the array ``known``."""
 
     def __init__(self) -> None:
-        self.blocks: list[Block] = []
-        self.places: dict[Value, int] = {}
+        self.blocks: list[TracedBlock] = []
+        self.places: dict[TracedValue, int] = {}
         self.size = 0
 
-    def split(self, block: Block) -> Block:
+    def split(self, block: TracedBlock) -> TracedBlock:
         """The part of a block that depends on more than parameters; its further inputs are known values."""
         early, late = split(block, [block.inputs[ARGUMENTS.index("p")]])
         self.blocks.append(early)
         for value in early.outputs:
-            assert isinstance(value, Value)
+            assert isinstance(value, TracedValue)
             if value not in self.places:
                 self.places[value] = self.size
                 self.size += value.size
         return late
 
-    def arguments(self, block: Block, own: Sequence[Argument]) -> list[Argument]:
+    def arguments(self, block: TracedBlock, own: Sequence[CArgument]) -> list[CArgument]:
         """The arguments of a block: its own, then the known values."""
         buffer = Buffer("known", "real", self.size)
         rest = block.inputs[len(own) :]
-        return [*own, *(Argument(buffer, v.shape, self.places[v]) for v in rest)]
+        return [*own, *(CArgument(buffer, v.shape, self.places[v]) for v in rest)]
 
-    def function(self, parameters: Argument, memory: Memory) -> Function:
+    def function(self, parameters: CArgument, memory: Workspace) -> CFunction:
         """The function that computes the known values."""
-        joined = Block(
+        joined = TracedBlock(
             tuple(i for b in self.blocks for i in b.inputs),
             tuple(o for b in self.blocks for o in b.operations),
             tuple(o for b in self.blocks for o in b.outputs),
         )
         buffer = Buffer("known", "real", self.size)
-        into = [(buffer, self.places[v]) for v in joined.outputs if isinstance(v, Value)]
+        into = [(buffer, self.places[v]) for v in joined.outputs if isinstance(v, TracedValue)]
         return write_function(joined, [parameters] * len(joined.inputs), into, memory)

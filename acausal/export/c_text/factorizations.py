@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from acausal.errors import ExportError
-from acausal.export.c_text.arrays import Array, stored
+from acausal.export.c_text.arrays import CArray, stored
 from acausal.export.c_text.expressions import integer
 from acausal.export.c_text.lowering import Lowering
 from acausal.export.c_text.statements import Call
-from acausal.export.traced import Operation
+from acausal.export.traced import TracedOperation
 
 
-def _svd(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _svd(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     """Singular values and both factors of one matrix, as the least steps of initialization need them."""
     (matrix,) = args
     if len(operation.outputs) != 3 or len(matrix.shape) != 2 or operation.params["full_matrices"]:

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from acausal.export.c_text.arrays import Array, stored
-from acausal.export.c_text.lowering import Lowering, Memory
+from acausal.export.c_text.arrays import CArray, stored
+from acausal.export.c_text.lowering import Lowering, Workspace
 from acausal.export.c_text.rules import RULES
 from acausal.export.c_text.statements import TYPES, Buffer, Statement, names, written
 from acausal.export.c_text.unused import without_unused
-from acausal.export.traced import Block
+from acausal.export.traced import TracedBlock
 
 
 @dataclass(frozen=True)
-class Argument:
+class CArgument:
     """An array or a number that a function takes.
 
     Attributes:
@@ -26,13 +26,13 @@ class Argument:
     offset: int = 0
 
     @property
-    def array(self) -> Array:
+    def array(self) -> CArray:
         """As an array to be read."""
         return stored(self.buffer, self.shape, self.offset)
 
 
 @dataclass(frozen=True)
-class Function:
+class CFunction:
     """A function that is written.
 
     Attributes:
@@ -45,11 +45,11 @@ class Function:
 
 
 def write_function(
-    block: Block,
-    arguments: Sequence[Argument],
+    block: TracedBlock,
+    arguments: Sequence[CArgument],
     results: Sequence[tuple[Buffer, int]],
-    memory: Memory,
-) -> Function:
+    memory: Workspace,
+) -> CFunction:
     """The body of a function.
 
     Arguments:
@@ -59,7 +59,7 @@ def write_function(
         memory: tables and helper functions, shared by the functions of a file.
     """
     statements: list[Statement] = []
-    work = Memory(tables=memory.tables, prelude=memory.prelude, describe=memory.describe)
+    work = Workspace(tables=memory.tables, prelude=memory.prelude, describe=memory.describe)
     work.name = memory.name  # type: ignore[method-assign]
     low = Lowering(RULES, work, statements)
     found = low.lower(block, [a.array for a in arguments])
@@ -68,7 +68,7 @@ def write_function(
     statements = without_unused(statements, {buffer.name for buffer, _ in results})
     offsets, real, whole = _places(work.work, statements)
     lines = [*_pointers(work.work, offsets), *written(statements)]
-    return Function(tuple(lines), real, whole)
+    return CFunction(tuple(lines), real, whole)
 
 
 def _pointers(buffers: Sequence[Buffer], offsets: dict[str, int]) -> Iterator[str]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 
-from acausal.export.c_text.text import Text, c_file, least
-from acausal.export.names import Run
+from acausal.export.c_text.text import ModelText, c_file, least
+from acausal.export.names import NameRange
 
 _EVENT_HELP = """   NAME_begin(&m);                before the first step: what holds at the start, at m.time
    m.d holds the discrete variables; steps end at events, where they change. Who makes steps of his own uses
@@ -32,7 +32,7 @@ _DIRECTIONAL = (
 )
 
 
-def header(text: Text) -> str:
+def header(text: ModelText) -> str:
     """The text of the header."""
     guard, name, sizes = f"{text.name.upper()}_H", text.name, text.code.sizes
     upper = text.name.upper()
@@ -152,7 +152,7 @@ def header(text: Text) -> str:
 
 
 def field_lines(
-    name: str, field: str, groups: Sequence[tuple[Run, str]], size: int | None, what: str
+    name: str, field: str, groups: Sequence[tuple[NameRange, str]], size: int | None, what: str
 ) -> Iterator[str]:
     """A field of a struct and what it holds: names in groups, with units; a size of None is a single number."""
     shown = [f"[{_places(run)}] {run.name}{f' in {unit}' if unit else ''}" for run, unit in groups]
@@ -165,22 +165,22 @@ def field_lines(
     yield (f"    {name}_real {field}{length}; /* " + "\n       ".join(comment) + " */")
 
 
-def _discrete_fields(text: Text) -> Iterator[str]:
+def _discrete_fields(text: ModelText) -> Iterator[str]:
     if not text.has_events:
         return
-    runs = [(Run(n, "", None, i, 1, 1), "") for i, n in enumerate(text.discrete)]
+    runs = [(NameRange(n, "", None, i, 1, 1), "") for i, n in enumerate(text.discrete)]
     what = "discrete variables, first the conditions"
     yield from field_lines(text.name, "d", runs, text.code.sizes.discrete, what)
     yield f"    {text.name}_events e;"
 
 
-def _longest(text: Text, part: Callable[[Run, str], str]) -> int:
+def _longest(text: ModelText, part: Callable[[NameRange, str], str]) -> int:
     """Room for the longest of some texts."""
     each = (len(part(run, unit).encode()) for _, groups in text.tables() for run, unit in groups)
     return max(each, default=0) + 1
 
 
-def _places(run: Run) -> str:
+def _places(run: NameRange) -> str:
     if run.count == 1:
         return str(run.first)
     last = run.places[-1]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import ExportError
-from acausal.export.c_text.arrays import Array, Index, linear, stored
+from acausal.export.c_text.arrays import CArray, Index, linear, stored
 from acausal.export.c_text.expressions import (
     Apply,
     Expr,
@@ -22,7 +22,7 @@ from acausal.export.c_text.expressions import (
 )
 from acausal.export.c_text.lowering import Lowering
 from acausal.export.c_text.statements import Assign, Call, Choose
-from acausal.export.traced import Operation
+from acausal.export.traced import TracedOperation
 
 
 def _clamped(low: Lowering, place: Expr, highest: int) -> Expr:
@@ -51,14 +51,14 @@ def _all(conditions: list[Expr | bool]) -> Expr | bool:
     return reduce(lambda a, b: Apply("&&", (a, b), "bool"), unknown) if unknown else True
 
 
-def _mode(operation: Operation) -> str:
+def _mode(operation: TracedOperation) -> str:
     name = str(operation.params.get("mode")).lower()
     if "clip" in name:
         return "clip"
     return "fill" if "fill" in name else "promise"
 
 
-def _gather(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _gather(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     operand, indices = args
     numbers, sizes = operation.params["dimension_numbers"], operation.params["slice_sizes"]
     shape, kind, mode = operation.outputs[0].shape, operation.outputs[0].kind, _mode(operation)
@@ -90,11 +90,11 @@ def _gather(low: Lowering, operation: Operation, args: list[Array]) -> list[Arra
             return value if holds else fill
         return select(holds, value, fill)
 
-    return [Array(shape, kind, at, 1 + indices.cost)]
+    return [CArray(shape, kind, at, 1 + indices.cost)]
 
 
 def _scatter(op: str, function: str | None = None) -> Any:
-    def rule(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+    def rule(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
         operand, indices, updates = args
         numbers, mode = operation.params["dimension_numbers"], _mode(operation)
         gone = (*numbers.inserted_window_dims, *numbers.operand_batching_dims)
@@ -146,7 +146,7 @@ def _scatter(op: str, function: str | None = None) -> Any:
 
 
 def _starts(
-    low: Lowering, args: list[Array], shape: tuple[int, ...], sizes: tuple[int, ...]
+    low: Lowering, args: list[CArray], shape: tuple[int, ...], sizes: tuple[int, ...]
 ) -> list[Expr]:
     found: list[Expr] = []
     for array, length, size in zip(args, shape, sizes, strict=True):
@@ -164,7 +164,7 @@ def _starts(
     return found
 
 
-def _dynamic_slice(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _dynamic_slice(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     source, *places = args
     sizes = operation.outputs[0].shape
     starts = _starts(low, places, source.shape, sizes)
@@ -172,10 +172,12 @@ def _dynamic_slice(low: Lowering, operation: Operation, args: list[Array]) -> li
     def at(index: Index) -> Expr:
         return source.at(tuple(add(s, i) for s, i in zip(starts, index, strict=True)))
 
-    return [Array(sizes, source.kind, at, source.cost)]
+    return [CArray(sizes, source.kind, at, source.cost)]
 
 
-def _dynamic_update_slice(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _dynamic_update_slice(
+    low: Lowering, operation: TracedOperation, args: list[CArray]
+) -> list[CArray]:
     operand, update, *places = args
     starts = _starts(low, places, operand.shape, update.shape)
     buffer = low.new(operand.shape, operand.kind)
@@ -186,7 +188,7 @@ def _dynamic_update_slice(low: Lowering, operation: Operation, args: list[Array]
     return [stored(buffer, operand.shape)]
 
 
-def _sort(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _sort(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     """By insertion, stable; NaN last."""
     axis, keys = int(operation.params["dimension"]), int(operation.params["num_keys"])
     shape = args[0].shape

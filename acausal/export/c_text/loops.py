@@ -8,21 +8,21 @@ from typing import Any
 from jax.extend.core import ClosedJaxpr
 
 from acausal._jax import scan_of
-from acausal.export.c_text.arrays import Array, Index, linear, stored
+from acausal.export.c_text.arrays import CArray, Index, linear, stored
 from acausal.export.c_text.expressions import Apply, Read, add, integer, reads, times, variable
 from acausal.export.c_text.lowering import Lowering
-from acausal.export.c_text.statements import Buffer, Choose, Declare, For, Repeat, Stop
-from acausal.export.traced import Operation, Value, block_of
+from acausal.export.c_text.statements import BreakUnless, Buffer, Choose, Declare, For, Repeat
+from acausal.export.traced import TracedOperation, TracedValue, block_of
 
 
-def _written(low: Lowering, closed: ClosedJaxpr, args: Sequence[Array]) -> list[Array]:
+def _written(low: Lowering, closed: ClosedJaxpr, args: Sequence[CArray]) -> list[CArray]:
     """The results of a block within this one, for arguments that cost nothing to read."""
     inner = Lowering(low.rules, low.memory, low.statements)
     inner.depth = low.depth
     return inner.lower(block_of(closed), args)
 
 
-def _variables(low: Lowering, starts: Sequence[Array]) -> list[Buffer]:
+def _variables(low: Lowering, starts: Sequence[CArray]) -> list[Buffer]:
     """Variables with these values at first."""
     buffers: list[Buffer] = []
     for array in starts:
@@ -40,10 +40,10 @@ def _variable(low: Lowering, shape: tuple[int, ...], kind: str) -> Buffer:
     return buffer
 
 
-def _carry_on(low: Lowering, found: Sequence[Array], buffers: Sequence[Buffer]) -> None:
+def _carry_on(low: Lowering, found: Sequence[CArray], buffers: Sequence[Buffer]) -> None:
     """Give variables their next values, all at once."""
     names = {b.name for b in buffers}
-    moved: list[tuple[Array, Buffer]] = []
+    moved: list[tuple[CArray, Buffer]] = []
     for array, buffer in zip(found, buffers, strict=True):
         if not _is(array, buffer):
             moved.append((array if _apart(array, names) else low.keep(array), buffer))
@@ -51,7 +51,7 @@ def _carry_on(low: Lowering, found: Sequence[Array], buffers: Sequence[Buffer]) 
         low.store(array, buffer)
 
 
-def _is(array: Array, buffer: Buffer) -> bool:
+def _is(array: CArray, buffer: Buffer) -> bool:
     """Whether an array is just what a variable holds already."""
     if array.parts is not None or array.cost:
         return False
@@ -60,14 +60,14 @@ def _is(array: Array, buffer: Buffer) -> bool:
     return array.stored is buffer and array.offset == 0
 
 
-def _apart(array: Array, names: set[str]) -> bool:
+def _apart(array: CArray, names: set[str]) -> bool:
     """Whether an array reads no variable of these."""
     if array.parts is not None:
         return all(_apart(part, names) for _, part in array.parts[1])
     return reads(array.at(tuple(integer(0) for _ in array.shape))).isdisjoint(names)
 
 
-def _while(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _while(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     params = operation.params
     n_condition, n_body = params["cond_nconsts"], params["body_nconsts"]
     condition_consts, rest = args[:n_condition], args[n_condition:]
@@ -78,13 +78,13 @@ def _while(low: Lowering, operation: Operation, args: list[Array]) -> list[Array
     low.emit(repeat)
     with low.within(repeat.body):
         (holds,) = _written(low, params["cond_jaxpr"], [*condition_consts, *carried])
-        low.emit(Stop(holds.at(())))
+        low.emit(BreakUnless(holds.at(())))
         found = _written(low, params["body_jaxpr"], [*body_consts, *carried])
         _carry_on(low, found, buffers)
     return carried
 
 
-def _scan(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _scan(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     scan = scan_of(_AsEquation(operation))  # type: ignore[arg-type]
     n, n_carry = scan.n_constants, scan.n_carry
     length = int(scan.options["length"])
@@ -100,11 +100,11 @@ def _scan(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]
         count = variable(loop.index)
         place = add(times(count, -1), integer(length - 1)) if scan.options["reverse"] else count
 
-        def row(source: Array) -> Array:
+        def row(source: CArray) -> CArray:
             def at(index: Index) -> Any:
                 return source.at((place, *index))
 
-            return Array(source.shape[1:], source.kind, at, source.cost)
+            return CArray(source.shape[1:], source.kind, at, source.cost)
 
         found = _written(low, scan.body, [*consts, *carried, *map(row, rows)])
         for array, buffer, output in zip(found[n_carry:], collected, outputs, strict=True):
@@ -120,7 +120,7 @@ def _scan(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]
 class _AsEquation:
     """An operation as `acausal._jax.primitives` reads it."""
 
-    def __init__(self, operation: Operation) -> None:
+    def __init__(self, operation: TracedOperation) -> None:
         self.params = operation.params
         self.primitive = _Named(operation.name)
 
@@ -130,10 +130,10 @@ class _Named:
         self.name = name
 
 
-def _cond(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _cond(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     which, *rest = args
     branches: Sequence[ClosedJaxpr] = operation.params["branches"]
-    outputs: Sequence[Value] = operation.outputs
+    outputs: Sequence[TracedValue] = operation.outputs
     buffers = [_variable(low, o.shape, o.kind) for o in outputs]
     _branch(low, which, branches, 0, rest, buffers)
     return [stored(b, o.shape) for b, o in zip(buffers, outputs, strict=True)]
@@ -141,10 +141,10 @@ def _cond(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]
 
 def _branch(
     low: Lowering,
-    which: Array,
+    which: CArray,
     branches: Sequence[ClosedJaxpr],
     number: int,
-    args: Sequence[Array],
+    args: Sequence[CArray],
     buffers: Sequence[Buffer],
 ) -> None:
     """The branches from a number on, as ``if ... else if ... else``."""

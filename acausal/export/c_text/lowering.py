@@ -12,10 +12,10 @@ from typing import TypeAlias
 import numpy as np
 
 from acausal.errors import ExportError
-from acausal.export.c_text.arrays import Array, Index, constant, linear, stored
+from acausal.export.c_text.arrays import CArray, Index, constant, linear, stored
 from acausal.export.c_text.expressions import Expr, Read, add, integer, variable
 from acausal.export.c_text.statements import Assign, Buffer, Comment, Declare, For, Statement
-from acausal.export.traced import Atom, Block, Constant, Operation, Value
+from acausal.export.traced import Atom, TracedBlock, TracedConstant, TracedOperation, TracedValue
 
 SMALL = 64
 """Most elements of an array that is kept on the stack; larger ones lie in the model's memory."""
@@ -28,7 +28,7 @@ LONG = 24
 
 
 @dataclass
-class Memory:
+class Workspace:
     """What a function needs beside its arguments.
 
     Attributes:
@@ -49,7 +49,7 @@ class Memory:
 
     def table(self, array: np.ndarray) -> Buffer:
         """A constant buffer with these values."""
-        kind = Constant(array).kind
+        kind = TracedConstant(array).kind
         values = array.reshape(-1)
         for known in self.tables:
             if known.kind == kind and np.array_equal(np.asarray(known.table), values):
@@ -59,7 +59,7 @@ class Memory:
         return buffer
 
 
-Rule: TypeAlias = "Callable[[Lowering, Operation, list[Array]], list[Array]]"
+Rule: TypeAlias = "Callable[[Lowering, TracedOperation, list[CArray]], list[CArray]]"
 """How an operation is written: its results from its arguments."""
 
 
@@ -85,17 +85,17 @@ class Lowering:
         statements: those of the block that is being written.
     """
 
-    def __init__(self, rules: Rules, memory: Memory, statements: list[Statement]) -> None:
+    def __init__(self, rules: Rules, memory: Workspace, statements: list[Statement]) -> None:
         self.rules = rules
         self.memory = memory
         self.statements = statements
-        self.arrays: dict[Value, Array] = {}
+        self.arrays: dict[TracedValue, CArray] = {}
         self.uses: Counter[Atom] = Counter()
         self.depth = 0
 
     # -- operations ----------------------------------------------------------------------------------
 
-    def lower(self, block: Block, arguments: Sequence[Array]) -> list[Array]:
+    def lower(self, block: TracedBlock, arguments: Sequence[CArray]) -> list[CArray]:
         """Write the operations of a block for these arguments; gives its results."""
         self.uses.update(a for o in block.operations for a in o.inputs)
         self.uses.update(block.outputs)
@@ -109,7 +109,7 @@ class Lowering:
             self._operation(operation)
         return [self.joined(a) for a in block.outputs]
 
-    def _operation(self, operation: Operation) -> None:
+    def _operation(self, operation: TracedOperation) -> None:
         rules = self.rules
         if operation.name not in rules.table:
             raise ExportError(
@@ -118,7 +118,7 @@ class Lowering:
                 + "; write the law with other functions of jax.numpy."
             )
         largest = max((o.size for o in operation.outputs), default=0)
-        arguments: list[Array] = []
+        arguments: list[CArray] = []
         for atom in operation.inputs:
             array = self.joined(atom) if operation.name in rules.joined else self.plain(atom)
             if operation.name in rules.read_often or (
@@ -135,28 +135,28 @@ class Lowering:
 
     # -- arrays --------------------------------------------------------------------------------------
 
-    def joined(self, atom: Atom) -> Array:
+    def joined(self, atom: Atom) -> CArray:
         """An array, perhaps still in parts."""
-        if isinstance(atom, Constant):
+        if isinstance(atom, TracedConstant):
             return constant(atom.array, self.memory.table)
         return self.arrays[atom]
 
-    def plain(self, atom: Atom) -> Array:
+    def plain(self, atom: Atom) -> CArray:
         """An array each of whose elements has an expression."""
         array = self.joined(atom)
         return self.kept(atom) if array.parts is not None else array
 
-    def kept(self, atom: Atom) -> Array:
+    def kept(self, atom: Atom) -> CArray:
         """An array that costs nothing to read."""
         array = self.joined(atom)
         if array.cost == 0 and array.parts is None:
             return array
         array = self.keep(array)
-        if isinstance(atom, Value):
+        if isinstance(atom, TracedValue):
             self.arrays[atom] = array
         return array
 
-    def keep(self, array: Array) -> Array:
+    def keep(self, array: CArray) -> CArray:
         """The same array, stored."""
         if array.size == 1 and array.parts is None:
             name = self.memory.name("v")
@@ -177,12 +177,12 @@ class Lowering:
             self.memory.work.append(buffer)
         return buffer
 
-    def store(self, array: Array, buffer: Buffer, offset: int = 0) -> None:
+    def store(self, array: CArray, buffer: Buffer, offset: int = 0) -> None:
         """Write an array into a buffer, row by row from ``offset`` on."""
         self._store(array, buffer, array.shape, tuple(integer(0) for _ in array.shape), offset)
 
     def _store(
-        self, array: Array, buffer: Buffer, shape: tuple[int, ...], first: Index, offset: int
+        self, array: CArray, buffer: Buffer, shape: tuple[int, ...], first: Index, offset: int
     ) -> None:
         if array.parts is not None:
             axis, parts = array.parts

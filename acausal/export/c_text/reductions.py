@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.export.c_text.arrays import Array, Index, linear, stored, uniform
+from acausal.export.c_text.arrays import CArray, Index, linear, stored, uniform
 from acausal.export.c_text.expressions import (
     Apply,
     Expr,
@@ -20,7 +20,7 @@ from acausal.export.c_text.expressions import (
 )
 from acausal.export.c_text.lowering import Lowering
 from acausal.export.c_text.statements import Assign, Buffer, Choose, Declare
-from acausal.export.traced import Operation
+from acausal.export.traced import TracedOperation
 
 Combine = Callable[[Expr, Expr], Expr]
 
@@ -57,7 +57,7 @@ def _first(value: float, kind: str) -> Number:
     return Number(int(value), kind)
 
 
-def _reduce(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _reduce(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     (source,) = args
     axes = tuple(int(a) for a in operation.params["axes"])
     shape, kind = operation.outputs[0].shape, operation.outputs[0].kind
@@ -78,7 +78,7 @@ def _reduce(low: Lowering, operation: Operation, args: list[Array]) -> list[Arra
 
     if int(np.prod(lengths, dtype=np.int64)) == 1:  # nothing is combined
         zeros = tuple(integer(0) for _ in axes)
-        return [Array(shape, kind, lambda i: element(i, zeros), source.cost)]
+        return [CArray(shape, kind, lambda i: element(i, zeros), source.cost)]
     buffer = low.new(shape, kind)
     for outer in low.over(shape):
         total = Read(low.memory.name("s"), None, kind)
@@ -93,7 +93,7 @@ def _reduce(low: Lowering, operation: Operation, args: list[Array]) -> list[Arra
 def _argument(op: str) -> Any:
     """The place of the largest or smallest element along an axis; of the first, or of the first NaN."""
 
-    def rule(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+    def rule(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
         (source,) = args
         (axis,) = operation.params["axes"]
         shape = operation.outputs[0].shape
@@ -129,7 +129,7 @@ def _argument(op: str) -> Any:
 
 
 def _cumulative(name: str, start: float, reduce: str) -> Any:
-    def rule(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+    def rule(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
         (source,) = args
         axis, reverse = int(operation.params["axis"]), bool(operation.params["reverse"])
         shape, kind = source.shape, operation.outputs[0].kind
@@ -150,7 +150,7 @@ def _cumulative(name: str, start: float, reduce: str) -> Any:
     return rule
 
 
-def _dot(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _dot(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     """Products of matrices: the longest run of memory is read in the innermost loop."""
     a, b = args
     (ca, cb), (ba, bb) = operation.params["dimension_numbers"]
@@ -175,7 +175,7 @@ def _dot(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
 
     if int(np.prod(lengths, dtype=np.int64)) == 1:  # nothing is added up
         zeros = tuple(integer(0) for _ in lengths)
-        return [Array(shape, kind, lambda out: term(out, zeros), 1 + a.cost + b.cost)]
+        return [CArray(shape, kind, lambda out: term(out, zeros), 1 + a.cost + b.cost)]
     buffer = low.new(shape, kind)
     if _rows_last(a, ca) and (_rows_last(b, cb) or not free_b):
         for out in low.over(shape):
@@ -193,7 +193,7 @@ def _dot(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
     return [stored(buffer, shape)]
 
 
-def _rows_last(array: Array, contracted: tuple[int, ...]) -> bool:
+def _rows_last(array: CArray, contracted: tuple[int, ...]) -> bool:
     return bool(contracted) and contracted[-1] == len(array.shape) - 1
 
 

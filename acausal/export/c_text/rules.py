@@ -7,7 +7,7 @@ from typing import Any
 
 from acausal.export.c_text import factorizations, indexed, loops, reductions
 from acausal.export.c_text.arrays import (
-    Array,
+    CArray,
     Index,
     converted,
     linear,
@@ -27,25 +27,25 @@ from acausal.export.c_text.expressions import (
     times,
 )
 from acausal.export.c_text.lowering import Lowering, Rule, Rules
-from acausal.export.traced import Operation, kind_of
+from acausal.export.traced import TracedOperation, kind_of
 
 # -- operations on elements --------------------------------------------------------------------------
 
 
 def _on_elements(write: Callable[..., Expr], cost: int = 1) -> Rule:
-    def rule(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+    def rule(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
         shape = operation.outputs[0].shape
 
         def at(index: Index) -> Expr:
             return write(*(_element(a, index) for a in args))
 
         kind = operation.outputs[0].kind
-        return [Array(shape, kind, at, cost + sum(a.cost for a in args))]
+        return [CArray(shape, kind, at, cost + sum(a.cost for a in args))]
 
     return rule
 
 
-def _element(array: Array, index: Index) -> Expr:
+def _element(array: CArray, index: Index) -> Expr:
     """An element of an array, or of one that has lengths of one (or none) instead."""
     if not array.shape:
         return array.at(())
@@ -83,7 +83,7 @@ def _function(name: str, cost: int = 10) -> Rule:
 def _prelude(name: str, cost: int = 3) -> Rule:
     write = _function(name, cost)
 
-    def rule(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+    def rule(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
         low.memory.prelude.add(name)
         return write(low, operation, args)
 
@@ -91,14 +91,14 @@ def _prelude(name: str, cost: int = 3) -> Rule:
 
 
 def _real_or_int(real: str, whole: str, cost: int) -> Rule:
-    def rule(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+    def rule(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
         chosen = real if operation.outputs[0].kind == "real" else whole
         return _prelude(chosen, cost)(low, operation, args)
 
     return rule
 
 
-def _integer_pow(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _integer_pow(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     y = int(operation.params["y"])
     if y == 0:
         return [uniform(Number(1.0, "real"), operation.outputs[0].shape)]
@@ -122,11 +122,11 @@ def _power(a: Expr, n: int) -> Expr:
     return Apply("*", (square, a), a.kind) if n % 2 else square
 
 
-def _convert(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _convert(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     return [converted(args[0], kind_of(operation.params["new_dtype"]))]
 
 
-def _select_n(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _select_n(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     which, *cases = args
     shape, kind = operation.outputs[0].shape, operation.outputs[0].kind
 
@@ -141,10 +141,10 @@ def _select_n(low: Lowering, operation: Operation, args: list[Array]) -> list[Ar
             found = select(Apply("==", (chosen, integer(number)), "bool"), value, found)
         return found
 
-    return [Array(shape, kind, at, 1 + sum(a.cost for a in args))]
+    return [CArray(shape, kind, at, 1 + sum(a.cost for a in args))]
 
 
-def _clamp(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _clamp(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     rules = _real_or_int("maximum", "maximum_int", 2), _real_or_int("minimum", "minimum_int", 2)
     low_end, value, high_end = args
     found = rules[0](low, operation, [value, low_end])
@@ -154,7 +154,7 @@ def _clamp(low: Lowering, operation: Operation, args: list[Array]) -> list[Array
 # -- the same elements elsewhere ---------------------------------------------------------------------
 
 
-def _broadcast(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _broadcast(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     (source,) = args
     shape = tuple(operation.params["shape"])
     places = tuple(operation.params["broadcast_dimensions"])
@@ -171,11 +171,11 @@ def _broadcast(low: Lowering, operation: Operation, args: list[Array]) -> list[A
     return [viewed(source, shape, moved)]
 
 
-def _reshape(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _reshape(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     return [reshaped(args[0], operation.outputs[0].shape)]
 
 
-def _transpose(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _transpose(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     order = tuple(operation.params["permutation"])
 
     def moved(index: Index) -> Index:
@@ -187,7 +187,7 @@ def _transpose(low: Lowering, operation: Operation, args: list[Array]) -> list[A
     return [viewed(args[0], operation.outputs[0].shape, moved)]
 
 
-def _rev(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _rev(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     axes, shape = set(operation.params["dimensions"]), args[0].shape
 
     def moved(index: Index) -> Index:
@@ -199,7 +199,7 @@ def _rev(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
     return [viewed(args[0], shape, moved)]
 
 
-def _slice(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _slice(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     params = operation.params
     starts = tuple(int(s) for s in params["start_indices"])
     strides = tuple(int(s) for s in params["strides"] or (1,) * len(starts))
@@ -208,12 +208,12 @@ def _slice(low: Lowering, operation: Operation, args: list[Array]) -> list[Array
 
 def _sliced(
     low: Lowering,
-    operation: Operation,
-    source: Array,
+    operation: TracedOperation,
+    source: CArray,
     starts: tuple[int, ...],
     strides: tuple[int, ...],
     shape: tuple[int, ...],
-) -> Array:
+) -> CArray:
     if source.parts is not None:
         axis, parts = source.parts
         last = starts[axis] + strides[axis] * (shape[axis] - 1)
@@ -239,8 +239,8 @@ def _sliced(
     )
 
 
-def _split(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
-    axis, start, found = int(operation.params["axis"]), 0, list[Array]()
+def _split(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
+    axis, start, found = int(operation.params["axis"]), 0, list[CArray]()
     for output in operation.outputs:
         starts = tuple(start if a == axis else 0 for a in range(len(output.shape)))
         strides = (1,) * len(output.shape)
@@ -249,9 +249,9 @@ def _split(low: Lowering, operation: Operation, args: list[Array]) -> list[Array
     return found
 
 
-def _concatenate(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _concatenate(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     axis, start = int(operation.params["dimension"]), 0
-    parts: list[tuple[int, Array]] = []
+    parts: list[tuple[int, CArray]] = []
     for array in args:
         if array.size:
             parts.append((start, array))
@@ -260,20 +260,20 @@ def _concatenate(low: Lowering, operation: Operation, args: list[Array]) -> list
 
 
 def _in_parts(
-    shape: tuple[int, ...], axis: int, parts: list[tuple[int, Array]], kind: str
-) -> Array:
+    shape: tuple[int, ...], axis: int, parts: list[tuple[int, CArray]], kind: str
+) -> CArray:
     if len(parts) == 1:
         return parts[0][1]
 
     def at(index: Index) -> Expr:
         raise AssertionError("an array in parts has no one expression")
 
-    return Array(
+    return CArray(
         shape, kind, at, max((p.cost for _, p in parts), default=0), parts=(axis, tuple(parts))
     )
 
 
-def _stack(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _stack(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     shape = operation.outputs[0].shape
     axis = int(operation.params.get("axis", operation.params.get("dimension", 0)))
     one = (*shape[:axis], 1, *shape[axis + 1 :])
@@ -284,10 +284,10 @@ def _stack(low: Lowering, operation: Operation, args: list[Array]) -> list[Array
     return [_in_parts(shape, axis, parts, operation.outputs[0].kind)]
 
 
-def _unstack(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _unstack(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     axis, shape = int(operation.params.get("axis", 0)), args[0].shape
     one = (*shape[:axis], 1, *shape[axis + 1 :])
-    found: list[Array] = []
+    found: list[CArray] = []
     for k, output in enumerate(operation.outputs):
         starts = tuple(k if a == axis else 0 for a in range(len(shape)))
         row = _sliced(low, operation, args[0], starts, (1,) * len(shape), one)
@@ -295,7 +295,7 @@ def _unstack(low: Lowering, operation: Operation, args: list[Array]) -> list[Arr
     return found
 
 
-def _pad(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _pad(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     source, value = args
     config = operation.params["padding_config"]
     shape, kind = operation.outputs[0].shape, operation.outputs[0].kind
@@ -310,9 +310,9 @@ def _pad(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
     return [stored(buffer, shape)]
 
 
-def _iota(low: Lowering, operation: Operation, args: list[Array]) -> list[Array]:
+def _iota(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
     axis, kind = int(operation.params["dimension"]), operation.outputs[0].kind
-    return [Array(operation.outputs[0].shape, kind, lambda i: convert(i[axis], kind))]
+    return [CArray(operation.outputs[0].shape, kind, lambda i: convert(i[axis], kind))]
 
 
 # -- the table ---------------------------------------------------------------------------------------

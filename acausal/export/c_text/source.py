@@ -14,22 +14,22 @@ import numpy as np
 from acausal.export.c_text import events
 from acausal.export.c_text.code import EXCESS
 from acausal.export.c_text.expressions import literal
-from acausal.export.c_text.functions import Function
-from acausal.export.c_text.lowering import Memory
+from acausal.export.c_text.functions import CFunction
+from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.steps import attempt_lines, step_lines
-from acausal.export.c_text.text import Text, c_file, least, prelude
+from acausal.export.c_text.text import ModelText, c_file, least, prelude
 from acausal.simulation import KAPPA, SLOW, STAGE_STEPS, STAGE_TOLERANCE
 
 NUMBERS = ("t", "seed_t", "initial", "apart")
 """Arguments that are single numbers."""
 
 
-def source(text: Text) -> str:
+def source(text: ModelText) -> str:
     """The text of the source."""
     return "\n".join(_lines(text)) + "\n"
 
 
-def _lines(text: Text) -> Iterator[str]:
+def _lines(text: ModelText) -> Iterator[str]:
     name, sizes = text.name, text.code.sizes
     yield f'#include "{name}.h"'
     if text.has_events or text.has_edges:
@@ -73,7 +73,7 @@ def _lines(text: Text) -> Iterator[str]:
     yield from _steps(text)
 
 
-def helpers(functions: Iterable[Function], memory: Memory) -> Iterator[str]:
+def helpers(functions: Iterable[CFunction], memory: Workspace) -> Iterator[str]:
     """Helper functions, and tables, that some functions need."""
     bodies = "\n".join(_without_comments(f.lines) for f in functions)
     for helper, lines in sorted(prelude().items()):
@@ -86,7 +86,7 @@ def helpers(functions: Iterable[Function], memory: Memory) -> Iterator[str]:
 
 
 def _function(
-    text: Text, name: str, arguments: list[str], results: list[str], called: str = ""
+    text: ModelText, name: str, arguments: list[str], results: list[str], called: str = ""
 ) -> Iterator[str]:
     """A function of the file: arguments, pointers to what it reads of the struct, statements."""
     function = text.code.functions[name]
@@ -109,7 +109,7 @@ def _function(
     yield ""
 
 
-def _steps(text: Text) -> Iterator[str]:
+def _steps(text: ModelText) -> Iterator[str]:
     """The step of a model, which may be divided at events or at edges."""
     found, name = text.code.events, text.name
     if found is not None:
@@ -134,7 +134,7 @@ def _steps(text: Text) -> Iterator[str]:
         yield from c_file("pieces.c", name)
 
 
-def _implicit(text: Text) -> Iterator[str]:
+def _implicit(text: ModelText) -> Iterator[str]:
     precision = "float64" if text.precision == "double" else "float32"
     yield f"#define TOLERANCE R({STAGE_TOLERANCE[precision]!r})"
     yield f"#define KAPPA R({KAPPA!r})"
@@ -145,7 +145,7 @@ def _implicit(text: Text) -> Iterator[str]:
     yield ""
 
 
-def _edges(text: Text) -> Iterator[str]:
+def _edges(text: ModelText) -> Iterator[str]:
     """The next time at which the rates jump or bend, and on which side of it they are evaluated."""
     if not text.has_edges:
         yield "#define SIDED(t) (t)"
@@ -157,7 +157,7 @@ def _edges(text: Text) -> Iterator[str]:
     yield ""
 
 
-def _variables(text: Text) -> Iterator[str]:
+def _variables(text: ModelText) -> Iterator[str]:
     """Names and units, in groups."""
     for kind, groups in text.tables():
         yield f"const {text.name}_variable {text.name}_{kind}_table[{least(len(groups))}] = {{"

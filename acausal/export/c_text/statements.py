@@ -45,13 +45,13 @@ class For:
 
 @dataclass(frozen=True)
 class Repeat:
-    """``for (;;)``, ended by a `Stop`."""
+    """``for (;;)``, ended by a `BreakUnless`."""
 
     body: list[Statement] = field(default_factory=list["Statement"])
 
 
 @dataclass(frozen=True)
-class Stop:
+class BreakUnless:
     """The end of a `Repeat`, unless a condition holds."""
 
     unless: Expr
@@ -88,7 +88,7 @@ class Comment:
     words: str
 
 
-Statement: TypeAlias = Assign | For | Repeat | Stop | Choose | Call | Declare | Comment
+Statement: TypeAlias = Assign | For | Repeat | BreakUnless | Choose | Call | Declare | Comment
 
 
 def inner(statement: Statement) -> Iterator[list[Statement]]:
@@ -109,7 +109,7 @@ def names(statement: Statement) -> set[str]:
     match statement:
         case Assign(target, value):
             found |= reads(target) | reads(value)
-        case Stop(condition) | Choose(condition):
+        case BreakUnless(condition) | Choose(condition):
             found |= reads(condition)
         case Call(_, args):
             for arg in args:
@@ -140,7 +140,7 @@ def written(statements: Sequence[Statement], depth: int = 1) -> Iterator[str]:
                 yield f"{pad}for (;;) {{"
                 yield from written(body, depth + 1)
                 yield f"{pad}}}"
-            case Stop(condition):
+            case BreakUnless(condition):
                 yield f"{pad}if (!({text(condition)})) break;"
             case Choose(condition, yes, no):
                 yield f"{pad}if ({text(condition)}) {{"

@@ -13,14 +13,14 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal.export.c_text.expressions import literal
-from acausal.export.c_text.functions import Argument, Function, write_function
+from acausal.export.c_text.functions import CArgument, CFunction, write_function
 from acausal.export.c_text.header import field_lines
-from acausal.export.c_text.lowering import Memory
+from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.source import helpers, mentions
 from acausal.export.c_text.statements import Buffer
 from acausal.export.c_text.text import least
 from acausal.export.names import runs
-from acausal.export.target import Port, Target
+from acausal.export.target import Target, TargetPort
 from acausal.export.traced import trace
 
 
@@ -38,11 +38,11 @@ class TargetText:
     name: str
     verb: str
     precision: str
-    function: Function
-    memory: Memory
+    function: CFunction
+    memory: Workspace
 
     @property
-    def results(self) -> Iterator[tuple[Port, int]]:
+    def results(self) -> Iterator[tuple[TargetPort, int]]:
         """The results, and where they begin in the array of all results."""
         first = 0
         for port in self.target.outputs:
@@ -65,10 +65,10 @@ def target_text(target: Target, name: str, verb: str, precision: str) -> TargetT
     def flat(*arrays: jax.Array) -> tuple[jax.Array, ...]:
         return tuple(map(jnp.ravel, target.call(*arrays)))
 
-    memory = Memory(describe=lambda _: "")
+    memory = Workspace(describe=lambda _: "")
     block = trace(flat, *(jnp.zeros(p.shape) for p in target.inputs))
     arguments = [
-        Argument(Buffer(p.name, "real", _size(p) if p.shape else None), p.shape)
+        CArgument(Buffer(p.name, "real", _size(p) if p.shape else None), p.shape)
         for p in target.inputs
     ]
     results = [(Buffer(f"next_{p.name}", "real", _size(p)), 0) for p in target.outputs]
@@ -149,12 +149,12 @@ def _source(text: TargetText) -> Iterator[str]:
     yield from (f"    return {upper}_OK;", "}")
 
 
-def _fields(target: Target) -> list[Port]:
+def _fields(target: Target) -> list[TargetPort]:
     """Arguments and results, each name once."""
     return list({p.name: p for p in (*target.outputs, *target.inputs)}.values())
 
 
-def _field(name: str, port: Port) -> Iterator[str]:
+def _field(name: str, port: TargetPort) -> Iterator[str]:
     units = dict(zip(port.elements, port.units, strict=True))
     groups = [(run, units[run.names[0]]) for run in runs(port.elements)]
     size = _size(port) if port.shape else None
@@ -163,7 +163,7 @@ def _field(name: str, port: Port) -> Iterator[str]:
     yield from field_lines(name, port.name, [] if is_matrix else groups, size, what)
 
 
-def _filled(port: Port, default: np.ndarray | None) -> Iterator[str]:
+def _filled(port: TargetPort, default: np.ndarray | None) -> Iterator[str]:
     """The first values of a field."""
     values = np.full(port.shape, np.nan) if default is None else default
     flat = np.ravel(values).tolist()
@@ -178,5 +178,5 @@ def _filled(port: Port, default: np.ndarray | None) -> Iterator[str]:
                 yield f"    m->{port.name}[{i}] = {literal(value, 'real')};"
 
 
-def _size(port: Port) -> int:
+def _size(port: TargetPort) -> int:
     return int(np.prod(port.shape, dtype=np.int64))

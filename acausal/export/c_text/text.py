@@ -12,13 +12,13 @@ from importlib.resources import files
 import numpy as np
 
 from acausal.export.c_text.code import EXCESS, Code
-from acausal.export.names import Run
+from acausal.export.names import NameRange
 from acausal.export.vector import ParameterVector
 from acausal.simulation import Tableau
 
 
 @dataclass(frozen=True, eq=False)
-class Text:
+class ModelText:
     """What is written about a model.
 
     Attributes:
@@ -36,10 +36,10 @@ class Text:
     solver: str
     scheme: Tableau
     vector: ParameterVector
-    states: Sequence[tuple[Run, str]]
-    inputs: Sequence[tuple[Run, str]]
-    outputs: Sequence[tuple[Run, str]]
-    parameters: Sequence[tuple[Run, str]]
+    states: Sequence[tuple[NameRange, str]]
+    inputs: Sequence[tuple[NameRange, str]]
+    outputs: Sequence[tuple[NameRange, str]]
+    parameters: Sequence[tuple[NameRange, str]]
     start: np.ndarray
     discrete: Sequence[str] = ()
     discrete_start: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0))
@@ -76,7 +76,7 @@ class Text:
         """Whether there are directional derivatives."""
         return "tangent" in self.code.functions
 
-    def tables(self) -> list[tuple[str, Sequence[tuple[Run, str]]]]:
+    def tables(self) -> list[tuple[str, Sequence[tuple[NameRange, str]]]]:
         """Names and units in groups, by kind."""
         return [
             ("states", self.states),

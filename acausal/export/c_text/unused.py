@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 from acausal.export.c_text.expressions import reads
 from acausal.export.c_text.statements import (
     Assign,
+    BreakUnless,
     Call,
     Choose,
     Comment,
@@ -14,7 +15,6 @@ from acausal.export.c_text.statements import (
     For,
     Repeat,
     Statement,
-    Stop,
     inner,
     names,
 )
@@ -48,7 +48,7 @@ def _live(statements: Sequence[Statement], results: Collection[str]) -> set[str]
                 every = names(statement)
                 for name in every:
                     needs.setdefault(name, set()).update(every)
-            case Stop(condition) | Choose(condition):
+            case BreakUnless(condition) | Choose(condition):
                 live |= reads(condition)
             case _:
                 pass

@@ -8,14 +8,14 @@ import numpy as np
 
 from acausal.export.c_text.code import EXCESS
 from acausal.export.c_text.source import mentions
-from acausal.export.c_text.text import Text
+from acausal.export.c_text.text import ModelText
 from acausal.export.fmu_text.variables import (
     DERIVATIVE,
     INPUT,
     OUTPUT,
     OUTSIDE,
     STATE,
-    Variable,
+    WrittenVariable,
 )
 from acausal.structure import dependence_pattern
 from acausal.system import System
@@ -28,7 +28,7 @@ FUNCTIONS = {DERIVATIVE: "rates", OUTPUT: "outputs", OUTSIDE: EXCESS}
 
 
 def dependencies(
-    text: Text, system: System, variables: Sequence[Variable], watched: np.ndarray
+    text: ModelText, system: System, variables: Sequence[WrittenVariable], watched: np.ndarray
 ) -> dict[int, list[int]] | None:
     """For each derivative and each output the references of the states and inputs that it reads, and perhaps time.
 
@@ -78,7 +78,7 @@ def _places(groups: Sequence[tuple[object, str]]) -> list[str]:
     return [named[place] for place in sorted(named)]
 
 
-def _by_place(variables: Sequence[Variable], first: dict[int, int], size: int) -> np.ndarray:
+def _by_place(variables: Sequence[WrittenVariable], first: dict[int, int], size: int) -> np.ndarray:
     """For each place of some kinds, one behind the other, the reference of its variable."""
     found = np.zeros(size, dtype=np.int64)
     for v in variables:

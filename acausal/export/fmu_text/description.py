@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from html import escape
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from acausal.export.fmu_text.variables import DERIVATIVE, INDICATOR, OUTSIDE, STATE, Variable
+from acausal.export.fmu_text.variables import DERIVATIVE, INDICATOR, OUTSIDE, STATE, WrittenVariable
 from acausal.units import in_si
 
 KINDS = {"model_exchange": "ModelExchange", "co_simulation": "CoSimulation"}
@@ -15,7 +15,7 @@ KINDS = {"model_exchange": "ModelExchange", "co_simulation": "CoSimulation"}
 
 
 @dataclass(frozen=True)
-class Description:
+class ModelDescription:
     """What the model description says.
 
     Attributes:
@@ -32,7 +32,7 @@ class Description:
     token: str
     kinds: Sequence[str]
     step: float
-    variables: Sequence[Variable]
+    variables: Sequence[WrittenVariable]
     dependencies: Mapping[int, Sequence[int]] | None
     sources: Sequence[str]
     indicators: int = 0
@@ -128,7 +128,9 @@ class Description:
             for length in v.shape:
                 SubElement(element, "Dimension", start=str(length))
 
-    def _unknowns(self) -> tuple[list[Variable], list[Variable], list[Variable]]:
+    def _unknowns(
+        self,
+    ) -> tuple[list[WrittenVariable], list[WrittenVariable], list[WrittenVariable]]:
         """Outputs, derivatives, and what is to be computed at the start."""
         outputs = [v for v in self.variables if v.causality == "output"]
         rates = [v for v in self.variables if v.kind == DERIVATIVE]
@@ -198,7 +200,7 @@ def _add_units(root: Element, units: Iterable[str]) -> None:
             base.set("offset", repr(found.offset))
 
 
-def documentation(description: Description, about: str) -> bytes:
+def documentation(description: ModelDescription, about: str) -> bytes:
     """``documentation/index.html``: what the model is, and a table of its variables.
 
     Arguments:
@@ -232,7 +234,7 @@ def number(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
-def _words(v: Variable) -> dict[str, str]:
+def _words(v: WrittenVariable) -> dict[str, str]:
     found = {
         "name": v.name,
         "valueReference": str(v.reference),
@@ -246,7 +248,7 @@ def _words(v: Variable) -> dict[str, str]:
     return found
 
 
-def _values(v: Variable) -> dict[str, str]:
+def _values(v: WrittenVariable) -> dict[str, str]:
     found = {"unit": v.unit} if v.unit else {}
     if len(set(v.nominal)) == 1 and v.nominal[0] != 1:
         found["nominal"] = number(v.nominal[0])
@@ -255,5 +257,5 @@ def _values(v: Variable) -> dict[str, str]:
     return found
 
 
-def _state_of(v: Variable) -> int:
+def _state_of(v: WrittenVariable) -> int:
     return (STATE << 24) + v.number

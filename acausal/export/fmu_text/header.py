@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from acausal.export.c_text.text import Text
+from acausal.export.c_text.text import ModelText
 from acausal.export.fmu_text.variables import OUTSIDE, event_indicators
 
 FUNCTIONS = ("init", "recalibrate", "start", "derivatives", "outputs", "step", "directional")
@@ -16,7 +16,7 @@ TABLES = ("parameters", "inputs", "states", "outputs")
 
 
 def model_header(
-    text: Text,
+    text: ModelText,
     token: str,
     step: float,
     kinds: Sequence[str],
@@ -86,7 +86,7 @@ def model_header(
     return "\n".join(lines) + "\n"
 
 
-def _indicators(text: Text) -> list[str]:
+def _indicators(text: ModelText) -> list[str]:
     """Which conditions are event indicators."""
     found = event_indicators(text)
     numbers = ", ".join(map(str, found)) or "0"

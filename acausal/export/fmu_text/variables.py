@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acausal.export.c_text.text import Text
+from acausal.export.c_text.text import ModelText
 from acausal.export.fmu_text.names import element, leaf, legal, unused
-from acausal.export.names import Run, runs
+from acausal.export.names import NameRange, runs
 from acausal.system import System
 
 PARAMETER, INPUT, STATE, DERIVATIVE, OUTPUT, INDICATOR, OUTSIDE = range(1, 8)
@@ -17,7 +17,7 @@ PARAMETER, INPUT, STATE, DERIVATIVE, OUTPUT, INDICATOR, OUTSIDE = range(1, 8)
 
 
 @dataclass(frozen=True)
-class Variable:
+class WrittenVariable:
     """A number, or with FMI 3 an array of numbers.
 
     Attributes:
@@ -60,7 +60,7 @@ class Group:
 
     kind: int
     number: int
-    run: Run
+    run: NameRange
     label: str
     shape: tuple[int, ...]
     unit: str
@@ -84,8 +84,8 @@ def shown_by_others(system: System, outputs: Sequence[str], scalars: bool) -> tu
 
 
 def variables(
-    text: Text, system: System, inputs: Sequence[str], outputs: Sequence[str], scalars: bool
-) -> list[Variable]:
+    text: ModelText, system: System, inputs: Sequence[str], outputs: Sequence[str], scalars: bool
+) -> list[WrittenVariable]:
     """All variables but time, in the order of their value references.
 
     Arguments:
@@ -96,7 +96,7 @@ def variables(
     """
     nominal = np.abs(system.reduced.nominal(system.reduced.states))
     held = {system.reduced.name(i) for i in system.reduced.discrete.tolist()}
-    found: list[Variable] = []
+    found: list[WrittenVariable] = []
     used = {"time"}
     for group in _groups(text, system, scalars):
         for number, name, places, shape, members in _members(group, used, scalars):
@@ -106,7 +106,7 @@ def variables(
             start = None if group.start is None else tuple(group.start[places].tolist())
             usual = tuple(nominal[places].tolist()) if group.kind == STATE else ()
             found.append(
-                Variable(
+                WrittenVariable(
                     name, group.kind, number, *words, places, shape, start, usual, group.unit, group.doc
                 )
             )  # fmt: skip
@@ -114,11 +114,11 @@ def variables(
         name = unused(["outside_training_range"], used)
         words = ("output", "discrete", "calculated")
         doc = "an argument of a network lies outside of the range in which it was trained"
-        found.append(Variable(name, OUTSIDE, 0, *words, range(1), (), None, (), "", doc))
+        found.append(WrittenVariable(name, OUTSIDE, 0, *words, range(1), (), None, (), "", doc))
     return sorted(found, key=lambda v: v.reference)
 
 
-def event_indicators(text: Text) -> list[int]:
+def event_indicators(text: ModelText) -> list[int]:
     """Of each event indicator, the number of its condition, from 1 on; negative for one that holds at zero, too.
 
     Conditions whose time is known have none: they are time events.
@@ -152,7 +152,7 @@ def _words(
     return ("output" if shown else "local", varies, initial)
 
 
-def _groups(text: Text, system: System, scalars: bool) -> Iterator[Group]:
+def _groups(text: ModelText, system: System, scalars: bool) -> Iterator[Group]:
     """In the order of the tables in C."""
     entries = {e.first: e for e in text.vector.entries}
     modules = sorted(system.layout.module_names, key=len, reverse=True)
@@ -172,7 +172,7 @@ def _groups(text: Text, system: System, scalars: bool) -> Iterator[Group]:
         before, after = f"der({run.before}", f"{run.after})"
         if run.index is None:
             before, after = before + after, ""
-        rate = Run(before, after, run.index, run.first, run.stride, run.count)
+        rate = NameRange(before, after, run.index, run.first, run.stride, run.count)
         per_second = system.unit(f"der({system.states[run.first]})")
         yield _plain(DERIVATIVE, number, rate, per_second, "", None)
     for number, (run, unit) in enumerate(text.outputs):
@@ -180,11 +180,13 @@ def _groups(text: Text, system: System, scalars: bool) -> Iterator[Group]:
 
     if (count := len(event_indicators(text))) and not scalars:
         name = "'event indicators'"
-        yield Group(INDICATOR, 0, Run(name, "", None, 0, 1, count), name, (count,), "", "", None)
+        yield Group(
+            INDICATOR, 0, NameRange(name, "", None, 0, 1, count), name, (count,), "", "", None
+        )
 
 
 def _plain(
-    kind: int, number: int, run: Run, unit: str, doc: str, start: np.ndarray | None
+    kind: int, number: int, run: NameRange, unit: str, doc: str, start: np.ndarray | None
 ) -> Group:
     shape = () if run.index is None else (run.count,)
     return Group(kind, number, run, run.before + run.after, shape, unit, doc, start)

@@ -8,9 +8,9 @@ import numpy as np
 
 from acausal._jax import Equation, name_of, shapes
 from acausal.errors import DataError
-from acausal.export.modelica_text.lines import Body, Index, Term
+from acausal.export.modelica_text.lines import BlockTerm, Body, Index
 
-Rule = Callable[[Body, Equation, Sequence[Term]], Sequence[Term]]
+Rule = Callable[[Body, Equation, Sequence[BlockTerm]], Sequence[BlockTerm]]
 
 TEXTS: dict[str, str] = {
     "abs": "abs({0})", "acos": "acos({0})", "add": "({0} + {1})", "add_any": "({0} + {1})", "asin": "asin({0})",
@@ -51,7 +51,7 @@ def shape_of(equation: Equation, i: int = 0) -> tuple[int, ...]:
     return shapes(equation.outvars)[i]
 
 
-def _each(terms: Sequence[Term], shape: tuple[int, ...], index: Index) -> list[str]:
+def _each(terms: Sequence[BlockTerm], shape: tuple[int, ...], index: Index) -> list[str]:
     """The elements of several arrays at a place; numbers, and axes of one element, serve all places."""
     found: list[str] = []
     for term in terms:
@@ -66,7 +66,7 @@ NEUTRAL = {"add": 0.0, "add_any": 0.0, "sub": 0.0, "mul": 1.0, "div": 1.0}
 """Second arguments that change nothing."""
 
 
-def _unchanged(equation: Equation, terms: Sequence[Term]) -> Term | None:
+def _unchanged(equation: Equation, terms: Sequence[BlockTerm]) -> BlockTerm | None:
     """The argument that an operation leaves as it is."""
     name = name_of(equation)
     if name not in NEUTRAL:
@@ -81,7 +81,7 @@ def _unchanged(equation: Equation, terms: Sequence[Term]) -> Term | None:
     return None
 
 
-def _settled(equation: Equation, terms: Sequence[Term], texts: Sequence[str]) -> str | None:
+def _settled(equation: Equation, terms: Sequence[BlockTerm], texts: Sequence[str]) -> str | None:
     """A condition that is known: of a number and itself, or infinity."""
     name = name_of(equation)
     if name in ("and", "or", "not"):
@@ -98,7 +98,7 @@ def _settled(equation: Equation, terms: Sequence[Term], texts: Sequence[str]) ->
 
 
 def _elementwise(template: str, truth: bool) -> Rule:
-    def rule(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+    def rule(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
         shape = shape_of(equation)
         same_term = _unchanged(equation, terms)
         if same_term is not None:
@@ -115,41 +115,41 @@ def _elementwise(template: str, truth: bool) -> Rule:
         plain = template == "{0}" and all(t.is_plain for t in terms)
         whole = terms[0].whole if template == "{0}" else None
         bound = terms[0].truth if template == "{0}" else truth
-        return [Term(block, shape, element, whole=whole, truth=bound, plain=plain)]
+        return [BlockTerm(block, shape, element, whole=whole, truth=bound, plain=plain)]
 
     return rule
 
 
-def _convert(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _convert(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
     """Truth values as numbers and back; other types are all real."""
     (term,), shape = terms, shape_of(equation)
     wanted = np.dtype(equation.params["new_dtype"]) == bool
     if wanted == term.truth:
         return [term]
     template = "({0} < 0 or {0} > 0)" if wanted else "noEvent(if {0} then 1 else 0)"
-    return [Term(block, shape, lambda index: template.format(term.at(index)), truth=wanted)]
+    return [BlockTerm(block, shape, lambda index: template.format(term.at(index)), truth=wanted)]
 
 
 def _add(sign: str) -> Rule:
     """Sums of products of matrices stay in one equation."""
     other = _elementwise(f"({{0}} {sign} {{1}})", False)
 
-    def rule(block: Body, equation: Equation, terms: Sequence[Term]) -> Sequence[Term]:
+    def rule(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> Sequence[BlockTerm]:
         a, b = terms
         if (a.is_product or b.is_product) and a.shape == b.shape and a.whole and b.whole:
-            return [Term(block, a.shape, None, whole=f"{a.whole} {sign} {b.whole}")]
+            return [BlockTerm(block, a.shape, None, whole=f"{a.whole} {sign} {b.whole}")]
         return other(block, equation, terms)
 
     return rule
 
 
-def _power(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _power(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
     n, (x,) = int(equation.params["y"]), terms
     template = f"({{0}}^{n})" if n >= 0 else f"(1/{{0}}^{-n})"
-    return [Term(block, x.shape, lambda index: template.format(x.at(index)))]
+    return [BlockTerm(block, x.shape, lambda index: template.format(x.at(index)))]
 
 
-def _select(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _select(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
     if len(terms) != 3 or not terms[0].truth:
         raise refuse(equation)
     shape, truth = shape_of(equation), terms[1].truth
@@ -161,7 +161,7 @@ def _select(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term
         choice = f"if {which} then {yes} else {no}"
         return f"({choice})" if truth else f"noEvent({choice})"
 
-    return [Term(block, shape, element, truth=truth)]
+    return [BlockTerm(block, shape, element, truth=truth)]
 
 
 ELEMENTWISE: dict[str, Rule] = {

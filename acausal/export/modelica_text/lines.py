@@ -73,7 +73,7 @@ def bare(text: str) -> str:
     return text[1:-1]
 
 
-class Term:
+class BlockTerm:
     """An array, or a number, of a block.
 
     Attributes:
@@ -135,24 +135,24 @@ def elements(name: str) -> Callable[[Index], str]:
     return lambda index: f"{name}[{', '.join(index)}]" if index else name
 
 
-def named(block: Body, name: str, shape: Sequence[int]) -> Term:
+def named(block: Body, name: str, shape: Sequence[int]) -> BlockTerm:
     """What has a name."""
-    return Term(block, shape, elements(name), whole=name, plain=True)
+    return BlockTerm(block, shape, elements(name), whole=name, plain=True)
 
 
-def known(block: Body, value: np.ndarray) -> Term:
+def known(block: Body, value: np.ndarray) -> BlockTerm:
     """A number, or an array of numbers, which becomes a constant."""
     truth = value.dtype == bool
     spelled = _truth if truth else _number
     if value.size and (value == value.flat[0]).all():
         same = spelled(value.flat[0])
         whole = None if value.ndim else same
-        return Term(
+        return BlockTerm(
             block, value.shape, lambda _: same, whole=whole, truth=truth, plain=True, value=value
         )
     kind = "constant Boolean" if truth else "constant Real"
     name = block.declare(value.shape, kind, array(value, spelled))
-    return Term(
+    return BlockTerm(
         block, value.shape, elements(name), whole=name, truth=truth, plain=True, value=value
     )
 

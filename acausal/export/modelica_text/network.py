@@ -15,12 +15,12 @@ from jax.extend.core import ClosedJaxpr, Literal
 from acausal._jax import CALLS, Equation, called, name_of
 from acausal.errors import DataError, shown
 from acausal.export.modelica_text.elementwise import refuse
-from acausal.export.modelica_text.lines import Body, Term, bare, known, named, sizes
+from acausal.export.modelica_text.lines import BlockTerm, Body, bare, known, named, sizes
 from acausal.export.modelica_text.operations import RULES
 from acausal.export.modelica_text.spelling import array, class_name, comment
 from acausal.export.traced import walk
 
-Value = Term | np.ndarray
+Value = BlockTerm | np.ndarray
 
 
 def block_of(name: str, network: Callable[..., Any], orders: Sequence[int]) -> str:
@@ -83,7 +83,7 @@ def write(block: Body, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Val
     """
     read_often = _read_often(closed)
 
-    def apply(equation: Equation, arguments: list[Value], _: str) -> Sequence[Term]:
+    def apply(equation: Equation, arguments: list[Value], _: str) -> Sequence[BlockTerm]:
         rule = RULES.get(name_of(equation))
         if rule is None:
             raise refuse(equation)

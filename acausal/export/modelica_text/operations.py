@@ -9,16 +9,16 @@ import numpy as np
 
 from acausal._jax import Equation, bind, name_of
 from acausal.export.modelica_text.elementwise import ELEMENTWISE, Rule, refuse, shape_of
-from acausal.export.modelica_text.lines import Body, Index, Term, elements, shifted
+from acausal.export.modelica_text.lines import BlockTerm, Body, Index, elements, shifted
 
 
 def _moved(place: Callable[[Equation, tuple[int, ...], Index], Index]) -> Rule:
     """Elements at other places."""
 
-    def rule(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+    def rule(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
         x = terms[0]
         return [
-            Term(
+            BlockTerm(
                 block,
                 shape_of(equation, i),
                 lambda index, i=i: x.at(place(equation, x.shape, (str(i), *index))),
@@ -83,7 +83,7 @@ def _rev(equation: Equation, shape: tuple[int, ...], index: Index) -> Index:
     )
 
 
-def _joined(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _joined(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
     """Arrays one behind the other, or numbers side by side, along the first axis."""
     stacked = name_of(equation) == "stack"
     if int(equation.params["axis" if stacked else "dimension"]) != 0 or terms[0].truth:
@@ -91,7 +91,9 @@ def _joined(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term
     if len(terms) == 1:
         (term,), cut = terms, 1 if stacked else 0
         return [
-            Term(block, shape_of(equation), lambda index: term.at(index[cut:]), plain=term.is_plain)
+            BlockTerm(
+                block, shape_of(equation), lambda index: term.at(index[cut:]), plain=term.is_plain
+            )
         ]
     name, at = block.declare(shape_of(equation)), 0
     for term in terms:
@@ -99,10 +101,10 @@ def _joined(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term
         cut = 1 if stacked else 0
         block.assign(name, inner, lambda index, term=term, cut=cut: term.at(index[cut:]), at)
         at += inner[0]
-    return [Term(block, shape_of(equation), elements(name), whole=name, plain=True)]
+    return [BlockTerm(block, shape_of(equation), elements(name), whole=name, plain=True)]
 
 
-def _pad(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _pad(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
     """A vector with the filling before and behind it."""
     (x, filling), config = terms, equation.params["padding_config"]
     if len(config) != 1 or config[0][2] or min(config[0][:2]) < 0:
@@ -112,10 +114,10 @@ def _pad(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     for n, at, term in ((low, 0, filling), (x.shape[0], low, x), (high, low + x.shape[0], filling)):
         if n:
             block.assign(name, (n,), lambda index, t=term: t.at(index if t.shape else ()), at)
-    return [Term(block, shape_of(equation), elements(name), whole=name, plain=True)]
+    return [BlockTerm(block, shape_of(equation), elements(name), whole=name, plain=True)]
 
 
-def _gathered(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _gathered(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
     """Elements at places that are known: numbered, and moved by the operation itself."""
     x, where = terms
     if where.value is None or not x.shape:
@@ -127,10 +129,10 @@ def _gathered(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Te
     for target, source in zip(np.ndindex(*shape_of(equation)), places, strict=True):
         left = elements(name)(tuple(str(i + 1) for i in target))
         block.equations.append(f"{left} = {x.at(tuple(map(str, source)))};")
-    return [Term(block, shape_of(equation), elements(name), whole=name, plain=True)]
+    return [BlockTerm(block, shape_of(equation), elements(name), whole=name, plain=True)]
 
 
-def _dot(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _dot(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
     """Products of matrices and vectors; of two vectors without a common axis, of their elements."""
     (left, right), batch = equation.params["dimension_numbers"]
     if any(len(b) for b in batch) or len(left) > 1:
@@ -139,7 +141,9 @@ def _dot(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     if not len(left):
         n = len(a.shape)
         return [
-            Term(block, shape_of(equation), lambda index: f"({a.at(index[:n])}*{b.at(index[n:])})")
+            BlockTerm(
+                block, shape_of(equation), lambda index: f"({a.at(index[:n])}*{b.at(index[n:])})"
+            )
         ]
     if max(len(a.shape), len(b.shape)) > 2:
         raise refuse(equation)
@@ -150,32 +154,32 @@ def _dot(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
         second = f"transpose({second})"
     product = f"{first}*{second}"
     if not shape_of(equation):
-        return [Term(block, (), lambda _: f"({product})")]
-    return [Term(block, shape_of(equation), None, whole=product)]
+        return [BlockTerm(block, (), lambda _: f"({product})")]
+    return [BlockTerm(block, shape_of(equation), None, whole=product)]
 
 
 def _reduce(function: str) -> Rule:
     """Of all elements, or along one axis."""
 
-    def rule(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+    def rule(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
         (x,), axes = terms, [int(a) for a in equation.params["axes"]]
         if x.truth or not (len(axes) == 1 or len(axes) == len(x.shape)):
             raise refuse(equation)
         name = x.name()
         if len(axes) == len(x.shape):
-            return [Term(block, (), lambda _: f"{function}({name})")]
+            return [BlockTerm(block, (), lambda _: f"{function}({name})")]
 
         def element(index: Index) -> str:
             own = list(index)
             own.insert(axes[0], ":")
             return f"{function}({name}[{', '.join(own)}])"
 
-        return [Term(block, shape_of(equation), element)]
+        return [BlockTerm(block, shape_of(equation), element)]
 
     return rule
 
 
-def _same(block: Body, equation: Equation, terms: Sequence[Term]) -> Sequence[Term]:
+def _same(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> Sequence[BlockTerm]:
     return terms
 
 

@@ -119,10 +119,10 @@ class Package:
 
     def model(self, component: Component, wanted: str, inputs: Sequence[str] | None = None) -> str:
         """The class of a component; of the whole model with its open inputs."""
-        return self.add(wanted, lambda name: Model(self, component, inputs).text(name))
+        return self.add(wanted, lambda name: ClassWriter(self, component, inputs).text(name))
 
 
-class Model:
+class ClassWriter:
     """Writes the class of one component."""
 
     def __init__(

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from acausal.export.onnx_text.builder import Graph, Rule, Site, Value
+from acausal.export.onnx_text.builder import OnnxGraph, Rule, Site, Value
 
 SAME = {
     "abs": "Abs", "add": "Add", "add_any": "Add", "ceil": "Ceil", "div": "Div", "eq": "Equal",
@@ -41,17 +41,17 @@ def _composed(function: object) -> Rule:
     return lambda site: [function(site.graph, *site.names)]  # pyright: ignore[reportCallIssue]
 
 
-def _cos(g: Graph, x: str) -> str:
+def _cos(g: OnnxGraph, x: str) -> str:
     """``1 - 2 sin(x/2)²``: some run times have no ``Cos`` in double precision, but all have ``Sin``."""
     half = g.add("Sin", g.add("Mul", x, g.number(0.5)))
     return g.add("Sub", g.number(1), g.add("Mul", g.number(2), g.add("Mul", half, half)))
 
 
-def _tan(g: Graph, x: str) -> str:
+def _tan(g: OnnxGraph, x: str) -> str:
     return g.add("Div", g.add("Sin", x), _cos(g, x))
 
 
-def _log1p(g: Graph, x: str) -> str:
+def _log1p(g: OnnxGraph, x: str) -> str:
     """``log(u) x / (u - 1)`` with ``u = 1 + x``: its rounding errors cancel (Kahan)."""
     one = g.number(1)
     u = g.add("Add", x, one)
@@ -63,7 +63,7 @@ def _log1p(g: Graph, x: str) -> str:
     return g.add("Where", tiny, x, g.add("Mul", g.add("Log", u), ratio))
 
 
-def _expm1(g: Graph, x: str) -> str:
+def _expm1(g: OnnxGraph, x: str) -> str:
     """``2 tanh(x/2) / (1 - tanh(x/2))`` below one, where the difference loses digits."""
     one, half = g.number(1), g.number(0.5)
     bounded = g.add("Max", g.add("Min", x, one), g.number(-1))
@@ -73,19 +73,19 @@ def _expm1(g: Graph, x: str) -> str:
     return g.add("Where", g.add("Less", g.add("Abs", x), one), near, far)
 
 
-def _sinh(g: Graph, x: str) -> str:
+def _sinh(g: OnnxGraph, x: str) -> str:
     """``(m + m / (m + 1)) / 2`` of ``m = expm1(|x|)``."""
     m = _expm1(g, g.add("Abs", x))
     whole = g.add("Add", m, g.add("Div", m, g.add("Add", m, g.number(1))))
     return g.add("Mul", g.add("Sign", x), g.add("Mul", whole, g.number(0.5)))
 
 
-def _cosh(g: Graph, x: str) -> str:
+def _cosh(g: OnnxGraph, x: str) -> str:
     whole = g.add("Add", g.add("Exp", x), g.add("Exp", g.add("Neg", x)))
     return g.add("Mul", whole, g.number(0.5))
 
 
-def _asinh(g: Graph, x: str) -> str:
+def _asinh(g: OnnxGraph, x: str) -> str:
     """``sign(x) log1p(|x| + x² / (1 + √(1 + x²)))``."""
     one, a = g.number(1), g.add("Abs", x)
     square = g.add("Mul", a, a)
@@ -94,20 +94,20 @@ def _asinh(g: Graph, x: str) -> str:
     return g.add("Mul", g.add("Sign", x), _log1p(g, inner))
 
 
-def _acosh(g: Graph, x: str) -> str:
+def _acosh(g: OnnxGraph, x: str) -> str:
     d = g.add("Sub", x, g.number(1))
     root = g.add("Sqrt", g.add("Mul", d, g.add("Add", d, g.number(2))))
     return _log1p(g, g.add("Add", d, root))
 
 
-def _atanh(g: Graph, x: str) -> str:
+def _atanh(g: OnnxGraph, x: str) -> str:
     """``sign(x) log1p(2 |x| / (1 - |x|)) / 2``."""
     a = g.add("Abs", x)
     ratio = g.add("Div", g.add("Mul", a, g.number(2)), g.add("Sub", g.number(1), a))
     return g.add("Mul", g.add("Sign", x), g.add("Mul", _log1p(g, ratio), g.number(0.5)))
 
 
-def _angle(g: Graph, y: str, x: str) -> str:
+def _angle(g: OnnxGraph, y: str, x: str) -> str:
     """The angle of a point of the plane.
 
     ONNX has ``Atan``, but run times know it in single precision only. So that value is a first guess, and one turn of
@@ -133,11 +133,11 @@ def _angle(g: Graph, y: str, x: str) -> str:
     return g.add("Add", guess, g.add("Sub", z, cube))
 
 
-def _single(g: Graph, name: str) -> str:
+def _single(g: OnnxGraph, name: str) -> str:
     return g.add("Cast", name, to=1)
 
 
-def _atan(g: Graph, x: str) -> str:
+def _atan(g: OnnxGraph, x: str) -> str:
     """Also for infinite arguments."""
     far = g.add("IsInf", x)
     size = g.add("Where", far, g.number(1), x)
@@ -145,13 +145,13 @@ def _atan(g: Graph, x: str) -> str:
     return g.add("Where", far, g.add("Mul", g.add("Sign", x), g.number(math.pi / 2)), angle)
 
 
-def _leg(g: Graph, x: str) -> str:
+def _leg(g: OnnxGraph, x: str) -> str:
     """``√((1 - x) (1 + x))``."""
     one = g.number(1)
     return g.add("Sqrt", g.add("Mul", g.add("Sub", one, x), g.add("Add", one, x)))
 
 
-def _cbrt(g: Graph, x: str) -> str:
+def _cbrt(g: OnnxGraph, x: str) -> str:
     """``sign(x) |x|^(1/3)``, and one step of Newton's method."""
     a = g.add("Abs", x)
     zero = g.add("Equal", a, g.number(0))
@@ -175,7 +175,7 @@ def _power(site: Site) -> list[str]:
     return [found if n > 0 else g.add("Div", g.number(1), found)]
 
 
-def _finite(g: Graph, x: str) -> str:
+def _finite(g: OnnxGraph, x: str) -> str:
     return g.add("Not", g.add("Or", g.add("IsInf", x), g.add("IsNaN", x)))
 
 

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal._jax import bind
-from acausal.export.onnx_text.builder import WHOLE, Graph, Rule, Site, Tensor, Value
+from acausal.export.onnx_text.builder import WHOLE, OnnxGraph, Rule, Site, Tensor, Value
 
 
 def _axes(site: Site, *axes: int) -> str:
@@ -276,7 +276,7 @@ def _dot(site: Site) -> list[str]:
     return _einsum(site, ranks)
 
 
-def _turned(g: Graph, matrix: Value) -> str:
+def _turned(g: OnnxGraph, matrix: Value) -> str:
     """A matrix with its axes exchanged, now if it is known."""
     if isinstance(matrix, Tensor):
         return g.add("Transpose", matrix.name, perm=[1, 0])

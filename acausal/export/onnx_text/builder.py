@@ -32,7 +32,7 @@ Value: TypeAlias = np.ndarray | Tensor
 
 
 @dataclass
-class Graph:
+class OnnxGraph:
     """Nodes, and constants that they share with the graphs of loops inside.
 
     Attributes:
@@ -48,9 +48,9 @@ class Graph:
     names: count[int] = field(default_factory=count)
     known: dict[tuple[Any, ...], str] = field(default_factory=dict)
 
-    def inner(self) -> Graph:
+    def inner(self) -> OnnxGraph:
         """A graph of a loop's body; its constants are those of this graph."""
-        return Graph(self.real, self.batch, [], self.constants, self.names, self.known)
+        return OnnxGraph(self.real, self.batch, [], self.constants, self.names, self.known)
 
     def dtype(self, dtype: Any) -> np.dtype[Any]:
         """The type that stands for one of JAX."""
@@ -127,7 +127,9 @@ class Graph:
 class Lowers(Protocol):
     """Adds the nodes of a jaxpr to a graph."""
 
-    def __call__(self, graph: Graph, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Value]:
+    def __call__(
+        self, graph: OnnxGraph, closed: ClosedJaxpr, values: Sequence[Value]
+    ) -> list[Value]:
         """The values of its results."""
         ...
 
@@ -141,7 +143,7 @@ class Site:
         lower: adds jaxprs that the operation calls.
     """
 
-    graph: Graph
+    graph: OnnxGraph
     equation: Equation
     values: tuple[Value, ...]
     lower: Lowers

@@ -10,7 +10,7 @@ from onnx import helper
 
 from acausal._jax import scan_of
 from acausal.errors import DataError
-from acausal.export.onnx_text.builder import Graph, Rule, Site, Tensor, Value
+from acausal.export.onnx_text.builder import OnnxGraph, Rule, Site, Tensor, Value
 
 
 def _linear_solve(site: Site) -> list[Value]:
@@ -76,7 +76,7 @@ def _cond(site: Site) -> list[str]:
 
 
 def _choose(
-    site: Site, g: Graph, index: str, branches: Sequence[Any], values: Sequence[Value], at: int
+    site: Site, g: OnnxGraph, index: str, branches: Sequence[Any], values: Sequence[Value], at: int
 ) -> list[str]:
     here, others = g.inner(), g.inner()
     first = site.lower(here, branches[at], values)
@@ -96,7 +96,7 @@ def _choose(
     )
 
 
-def _branch(graph: Graph, names: Sequence[str], avals: Sequence[Any]) -> Any:
+def _branch(graph: OnnxGraph, names: Sequence[str], avals: Sequence[Any]) -> Any:
     own = [graph.add("Identity", name) for name in names]
     infos = [
         helper.make_tensor_value_info(name, graph.kind(a.dtype), None)
@@ -105,12 +105,12 @@ def _branch(graph: Graph, names: Sequence[str], avals: Sequence[Any]) -> Any:
     return helper.make_graph(graph.nodes, "branch", [], infos)
 
 
-def _carried(body: Graph, start: Sequence[Value]) -> list[Tensor]:
+def _carried(body: OnnxGraph, start: Sequence[Value]) -> list[Tensor]:
     return [Tensor(body.fresh(), v.shape, v.dtype) for v in start]
 
 
 def _body(
-    body: Graph, carried: Sequence[Tensor], results: Sequence[Value], row: str | None = None
+    body: OnnxGraph, carried: Sequence[Tensor], results: Sequence[Value], row: str | None = None
 ) -> Any:
     """The graph of a loop's body: (row, whether it goes on, what is carried) -> (the same, rows of results)."""
     info = helper.make_tensor_value_info

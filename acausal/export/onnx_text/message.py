@@ -9,7 +9,7 @@ import numpy as np
 from jax.extend.core import ClosedJaxpr
 from onnx import ModelProto, NodeProto, checker, helper, numpy_helper
 
-from acausal.export.onnx_text.builder import Graph, Tensor, Value
+from acausal.export.onnx_text.builder import OnnxGraph, Tensor, Value
 from acausal.export.onnx_text.table import lower
 
 OPSET, IR = 18, 9
@@ -34,7 +34,7 @@ def model_of(
     Raises:
         DataError: for an operation that has no counterpart in ONNX.
     """
-    graph, (arguments, targets) = Graph(real), names
+    graph, (arguments, targets) = OnnxGraph(real), names
     avals: list[Any] = [v.aval for v in closed.jaxpr.invars]
     values: list[Value] = []
     for name, aval in zip(arguments, avals, strict=True):

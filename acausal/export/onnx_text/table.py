@@ -8,14 +8,14 @@ from jax.extend.core import ClosedJaxpr
 
 from acausal._jax import Equation, name_of
 from acausal.export.onnx_text import arithmetic, arrays, control
-from acausal.export.onnx_text.builder import Graph, Rule, Site, Value, results
+from acausal.export.onnx_text.builder import OnnxGraph, Rule, Site, Value, results
 from acausal.export.traced import walk
 
 TABLE: dict[str, Rule] = {**arithmetic.RULES, **arrays.RULES, **control.RULES}
 """By operation of JAX, how its nodes are made."""
 
 
-def lower(graph: Graph, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Value]:
+def lower(graph: OnnxGraph, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Value]:
     """Add the nodes of a jaxpr; what is known already is computed now.
 
     Arguments:

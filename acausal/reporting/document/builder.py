@@ -14,7 +14,7 @@ from acausal.files import need_path, write_files
 from acausal.reporting.document.content import (
     Block,
     Drawing,
-    Equations,
+    EquationList,
     PageContent,
     Section,
     Tab,
@@ -63,7 +63,7 @@ class Page:
         self, equations: Sequence[sp.Equality], names: Mapping[str, str] | None = None
     ) -> None:
         """Equations in short names; ``names`` chooses some of them, such as ``{"body.m": "m_b"}``."""
-        self.add(Equations(tuple((e.lhs, e.rhs) for e in equations), names or {}))
+        self.add(EquationList(tuple((e.lhs, e.rhs) for e in equations), names or {}))
 
     def figure(self, figure: Figure, caption: str, save: Path | None = None) -> None:
         """A matplotlib figure, embedded, and also saved as PNG where a path is given."""

@@ -32,7 +32,7 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Equations:
+class EquationList:
     """Equations, one below another.
 
     Attributes:
@@ -162,7 +162,7 @@ class Animation:
     trace: str = ""
 
 
-Block = Text | Table | Equations | Plot | Drawing | Animation
+Block = Text | Table | EquationList | Plot | Drawing | Animation
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ MARK = 7.0
 
 
 @dataclass(frozen=True)
-class Stage:
+class Viewport:
     """Where a mechanism lies in its drawing: ``pixels`` to a metre, with the world's origin at ``x`` and ``y``."""
 
     pixels: float
@@ -34,7 +34,7 @@ class Stage:
         return MARK / self.pixels
 
 
-def stage(animation: Animation) -> Stage:
+def stage(animation: Animation) -> Viewport:
     """The stage that holds all that ever moves."""
     corners = [_corners(one, len(animation.time), 0.0) for one in animation.shapes]
     x, y = (np.concatenate([np.ravel(c[k]) for c in corners]) for k in range(2))
@@ -47,7 +47,7 @@ def stage(animation: Animation) -> Stage:
     height = max(LOW, pixels * (high_y - low_y) + 2 * room + FOOT)
     left = (WIDE - pixels * (high_x - low_x)) / 2 - pixels * low_x
     top = (height - FOOT - pixels * (high_y - low_y)) / 2 + pixels * high_y
-    return Stage(float(pixels), float(left), float(top), WIDE, float(height))
+    return Viewport(float(pixels), float(left), float(top), WIDE, float(height))
 
 
 def still(animation: Animation, row: int = -1) -> str:
@@ -71,7 +71,7 @@ def _way(animation: Animation, name: str) -> tuple[Numbers, Numbers]:
     return _whole(one.x, n), _whole(one.y, n)
 
 
-def _drawn(animation: Animation, place: Stage, row: int) -> Iterator[str]:
+def _drawn(animation: Animation, place: Viewport, row: int) -> Iterator[str]:
     fixed = 'vector-effect="non-scaling-stroke"'
     x, y = _way(animation, animation.trace) if animation.trace else (np.zeros(0), np.zeros(0))
     points = "L".join(f"{a:.5g} {b:.5g}" for a, b in zip(x.tolist(), y.tolist(), strict=True))
@@ -90,7 +90,7 @@ def _drawn(animation: Animation, place: Stage, row: int) -> Iterator[str]:
         )
 
 
-def _pose(one: Moving, place: Stage, row: int) -> str:
+def _pose(one: Moving, place: Viewport, row: int) -> str:
     def at(values: Numbers | None) -> float:
         return place.mark if values is None else float(values[min(row, len(values) - 1)])
 
@@ -101,7 +101,7 @@ def _pose(one: Moving, place: Stage, row: int) -> str:
     )
 
 
-def _scale(place: Stage) -> str:
+def _scale(place: Viewport) -> str:
     """A bar of a round length."""
     length = max(ticks(0.0, 0.25 * place.width / place.pixels, 2))
     x, y = place.width - MARGIN, place.height - 8

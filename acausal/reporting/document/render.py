@@ -16,7 +16,7 @@ from acausal.reporting.document.content import (
     Block,
     Card,
     Drawing,
-    Equations,
+    EquationList,
     PageContent,
     Plot,
     Section,
@@ -137,7 +137,7 @@ class _Writer:
                 return f"<p>{_prose(block.text)}</p>"
             case Table():
                 return _table(block)
-            case Equations():
+            case EquationList():
                 return f'<div class="equations">{"".join(_equations(block))}</div>'
             case Drawing():
                 caption = f"<figcaption>{_prose(block.caption)}</figcaption>"
@@ -209,7 +209,7 @@ class _Writer:
         return f'<figure class="plot" data-plot="{len(self.specs) - 1}">{caption}</figure>'
 
 
-def _equations(block: Equations) -> Iterable[str]:
+def _equations(block: EquationList) -> Iterable[str]:
     shortest = {} if block.names is None else _shortest(block.equations, block.names)
     for equation in block.equations:
         if isinstance(equation, str):

@@ -26,7 +26,7 @@ from acausal.simulation.steps.multistep import (
     weights,
 )
 from acausal.simulation.steps.one_step import defect, first_length, look_inside
-from acausal.simulation.steps.problem import Attempt, Counts, Problem, RightHandSide
+from acausal.simulation.steps.problem import Attempt, Counts, Integration, RightHandSide
 
 State = Float[Array, " n_states"]
 
@@ -54,7 +54,7 @@ CAUTIOUS, BOLD = 6.0, 10.0
 """Factors of safety of the error at this order and below, and at the next one."""
 
 
-class Memory(NamedTuple):
+class MultistepMemory(NamedTuple):
     """What is known between two steps.
 
     Attributes:
@@ -80,7 +80,7 @@ class Memory(NamedTuple):
     stale: Bool[Array, ""]
 
 
-class Row(NamedTuple):
+class StepEquation(NamedTuple):
     """A step's equation: its coefficient, and the weights of the states before."""
 
     c: Float[Array, ""]
@@ -90,7 +90,7 @@ class Row(NamedTuple):
     order: Int[Array, ""]
 
 
-class Dense(NamedTuple):
+class StepPolynomial(NamedTuple):
     """The polynomial through the end of a step and the points before it."""
 
     states: Float[Array, "points_1 n_states"]
@@ -98,7 +98,7 @@ class Dense(NamedTuple):
     order: Int[Array, ""]
 
 
-class BDF(eqx.Module):
+class Multistep(eqx.Module):
     """The method.
 
     Attributes:
@@ -108,18 +108,18 @@ class BDF(eqx.Module):
     name: ClassVar[str] = "BDF"
     matrix: NewtonMatrix
 
-    def with_tangents(self) -> BDF:
+    def with_tangents(self) -> Multistep:
         """The method that can be differentiated in forward mode."""
         return self
 
-    def begin(self, problem: Problem, t: Array, x: State) -> tuple[Memory, Counts]:
+    def begin(self, problem: Integration, t: Array, x: State) -> tuple[MultistepMemory, Counts]:
         """What is known at the begin, or after a jump: one state."""
         f = problem.field(t, x)
         h = first_length(problem, t, x, f, 1.0)
         back = jnp.arange(POINTS)
         states = x - (h * back)[:, None].astype(x.dtype) * lax.stop_gradient(f)
         zero, one = jnp.zeros((), jnp.int32), jnp.ones((), jnp.int32)
-        memory = Memory(
+        memory = MultistepMemory(
             h,
             states,
             t - h * back,
@@ -137,11 +137,11 @@ class BDF(eqx.Module):
     chooses: ClassVar[bool] = True
     """It chooses the lengths of its steps."""
 
-    def resumed(self, memory: Memory, before: Memory) -> Memory:
+    def resumed(self, memory: MultistepMemory, before: MultistepMemory) -> MultistepMemory:
         """What is known behind a jump."""
         return memory
 
-    def attempt(self, problem: Problem, memory: Memory, t: Array, h: Array) -> Attempt:
+    def attempt(self, problem: Integration, memory: MultistepMemory, t: Array, h: Array) -> Attempt:
         """Try a step of length h from t."""
         m, end = memory, t + h
         q = m.order
@@ -168,7 +168,7 @@ class BDF(eqx.Module):
         x, exact = lax.stop_gradient(newton.x), newton.x
         error = constant * problem.size(x - predicted, x_before, x)
         error = jnp.where(newton.done, error, jnp.inf)
-        inside = _fixed(Dense(jnp.concatenate([x[None], m.states]), _with_end(s), q))
+        inside = _fixed(StepPolynomial(jnp.concatenate([x[None], m.states]), _with_end(s), q))
 
         fixed, begin, length, found = _fixed((matrix, t, h, x))
 
@@ -179,7 +179,7 @@ class BDF(eqx.Module):
         look = look_inside(problem, error, INSIDE, size, OF_DEFECT)
         looked = (error < 1) & (look.error >= 1)
         error, accepted = look.error, look.error < 1
-        dense = Dense(jnp.concatenate([exact[None], memory.states]), _with_end(s), q)
+        dense = StepPolynomial(jnp.concatenate([exact[None], memory.states]), _with_end(s), q)
         solved = m._replace(matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted))
         after = self._after(problem, solved, h, end, _fixed(dense), error)
         after = after._replace(states=dense.states[:-1])
@@ -191,19 +191,25 @@ class BDF(eqx.Module):
             exact,
             jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
             dense,
-            Row(c, own, end, m.times, q),
+            StepEquation(c, own, end, m.times, q),
             jnp.array(False),
             jnp.array(False),
             counts,
         )
 
-    def between(self, dense: Dense, t: Array, h: Array, at: Array) -> State:
+    def between(self, dense: StepPolynomial, t: Array, h: Array, at: Array) -> State:
         """The state at a time within a step."""
         return weights(dense.s, dense.order + 1, (t + h - at) / h) @ dense.states
 
     def _after(
-        self, problem: Problem, m: Memory, h: Array, end: Array, dense: Dense, error: Array
-    ) -> Memory:
+        self,
+        problem: Integration,
+        m: MultistepMemory,
+        h: Array,
+        end: Array,
+        dense: StepPolynomial,
+        error: Array,
+    ) -> MultistepMemory:
         """What is known after a step that counts, but for the states: the next order and length."""
         states, s, q = dense
 
@@ -242,7 +248,9 @@ class BDF(eqx.Module):
             stale=jnp.array(False),
         )
 
-    def _before(self, m: Memory, newton: Newton, renewed: Array, h: Array, error: Array) -> Memory:
+    def _before(
+        self, m: MultistepMemory, newton: Newton, renewed: Array, h: Array, error: Array
+    ) -> MultistepMemory:
         """What is known where a step does not count: a matrix to renew, or a shorter length."""
         unsolved, q = ~newton.done, m.order
         failures = m.failures + jnp.where(unsolved & ~renewed, 0, 1)
@@ -277,8 +285,8 @@ class BDF(eqx.Module):
         which: tuple[Array, Array],
     ) -> tuple[Float[Array, "points_1 n_states"], list[Array]]:
         """See `OneStep.back`."""
-        problem: Problem = of_moved(own)[1]
-        equation: Row = row.own
+        problem: Integration = of_moved(own)[1]
+        equation: StepEquation = row.own
         s = _with_end((equation.t - equation.times) / row.h)
 
         def add(state: tuple[Array, Array]) -> tuple[Array, Array]:

@@ -13,7 +13,7 @@ from acausal._jax import cond_any, without_derivatives
 from acausal.events import COINCIDE, POINTS, Bracketing, Events, due, guards, look, no_bracketing
 from acausal.simulation.log import Log
 from acausal.simulation.steps.one_step import Memory
-from acausal.simulation.steps.problem import Attempt, Counts, Problem
+from acausal.simulation.steps.problem import Attempt, Counts, Integration
 from acausal.simulation.steps.rows import EDGE, JUMP, STATE, TIMED, Reach, Row, follow, reach
 from acausal.simulation.steps.simultaneous_events import follow_in_turn
 
@@ -68,7 +68,7 @@ class Stop(NamedTuple):
     apart: Any = None
 
 
-class Seen(NamedTuple):
+class EventsInStep(NamedTuple):
     """What a step has shown.
 
     Attributes:
@@ -110,7 +110,7 @@ def none_yet(events: Events, t: Array, d: Array, log: Log) -> EventState:
     )
 
 
-def sooner(held: Problem, t: Array, x: Array, stop: Stop) -> Stop:
+def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
     """The time at which a condition is known to change, if that comes before the stop."""
     events, span = held.watched, held.end - held.begin
     band = -jnp.ones(events.n_guards, x.dtype)
@@ -135,17 +135,17 @@ def sooner(held: Problem, t: Array, x: Array, stop: Stop) -> Stop:
 
 def look_within(
     method: Any,
-    held: Problem,
+    held: Integration,
     state: EventState,
     made: Attempt,
     t: Array,
     h: Array,
     stop: Stop,
-) -> Seen:
+) -> EventsInStep:
     """See whether a condition changes in a step, and whether that ends where it does."""
     events, ok, bracketing = held.watched, made.accepted, state.bracketing
     if events.timed.all():
-        return Seen(ok, stop, bracketing, jnp.array(False), jnp.array(False))
+        return EventsInStep(ok, stop, bracketing, jnp.array(False), jnp.array(False))
     numbers = _numbers(method, held, made, t, h)
     found = look(events, bracketing, numbers, state.deadband, state.d, *lax.stop_gradient((t, h)))
     # a fast mode swings where stability limits the steps, and what depends on it changes to and fro
@@ -155,7 +155,7 @@ def look_within(
     if stop.times is not None:  # a condition whose time has come would be missed after the event
         near = jnp.abs(stop.times - (t + h)) <= stop.apart
         changing = jnp.where(near, jnp.maximum(changing, stop.rounding), changing)
-    return Seen(
+    return EventsInStep(
         (ok | is_event) & ~searches & ~doubted,
         stop._replace(
             kind=jnp.where(is_event, STATE, stop.kind).astype(jnp.int32),
@@ -170,12 +170,12 @@ def look_within(
 
 def land(
     method: Any,
-    problem: Problem,
+    problem: Integration,
     memory: Memory,
     row: Row,
     made: Attempt,
     h: Array,
-    seen: Seen,
+    seen: EventsInStep,
     plain: Landing,
     happens: Bool[Array, ""],
     *,
@@ -225,11 +225,11 @@ def land(
 
 
 def after(
-    problem: Problem,
+    problem: Integration,
     state: EventState,
     row: Row,
     made: Attempt,
-    seen: Seen,
+    seen: EventsInStep,
     landing: Landing,
     happened: Bool[Array, ""],
 ) -> EventState:
@@ -259,7 +259,7 @@ def after(
 
 
 def _numbers(
-    method: Any, held: Problem, made: Attempt, t: Array, h: Array
+    method: Any, held: Integration, made: Attempt, t: Array, h: Array
 ) -> Float[Array, "n_points n_guards"]:
     """The conditions' numbers at some points of a step; without derivatives."""
     dense, t, h, end = lax.stop_gradient((made.dense, t, h, made.x))

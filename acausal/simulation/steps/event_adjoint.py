@@ -12,11 +12,11 @@ from jaxtyping import Array
 
 from acausal.events import After, Pass, after_pass, fire
 from acausal.simulation.steps import simultaneous_events
-from acausal.simulation.steps.loop import Start
-from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.loop import LoopStart
+from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.rows import RESTART, Reach, Row, rates_at, restarted, values_at
 
-Task = tuple[Any, Problem, Start]
+Task = tuple[Any, Integration, LoopStart]
 """Method, problem, start."""
 
 OfMoved = Callable[[list[Array]], Task]

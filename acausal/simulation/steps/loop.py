@@ -20,7 +20,7 @@ from acausal.events import Ahead
 from acausal.simulation.log import Log
 from acausal.simulation.steps import between_events
 from acausal.simulation.steps.between_events import EventState, Landing
-from acausal.simulation.steps.problem import EDGE_STEPS, Attempt, Counts, Problem
+from acausal.simulation.steps.problem import EDGE_STEPS, Attempt, Counts, Integration
 from acausal.simulation.steps.rows import (
     BEND,
     EDGE,
@@ -44,7 +44,7 @@ Saved = tuple[Array, Any]
 """States, and discrete variables if there are events, at the times to save."""
 
 
-class Start(NamedTuple):
+class LoopStart(NamedTuple):
     """Where a loop begins.
 
     Attributes:
@@ -59,7 +59,7 @@ class Start(NamedTuple):
     log: Log | None = None
 
 
-class Found(NamedTuple):
+class LoopResult(NamedTuple):
     """What a loop found.
 
     Attributes:
@@ -79,7 +79,7 @@ class Found(NamedTuple):
     log: Log | None
 
 
-class Progress(NamedTuple):
+class LoopState(NamedTuple):
     """How far a run has come; all that it needs to go on.
 
     Attributes:
@@ -102,7 +102,7 @@ class Progress(NamedTuple):
         """Discrete variables; None without events."""
         return None if self.events is None else self.events.d
 
-    def short(self) -> Progress:
+    def short(self) -> LoopState:
         """The same with room for one event, for what does not read the log."""
         if self.events is None:
             return self
@@ -111,12 +111,12 @@ class Progress(NamedTuple):
 
 def search(
     method: Any,
-    problem: Problem,
-    start: Start,
+    problem: Integration,
+    start: LoopStart,
     *,
     until_stiff: bool = False,
     forward: bool = False,
-) -> Found:
+) -> LoopResult:
     """Go from a start to the end of a problem.
 
     Arguments:
@@ -133,7 +133,7 @@ def search(
     return found(problem, last, saved)
 
 
-def found(problem: Problem, last: Progress, saved: Saved) -> Found:
+def found(problem: Integration, last: LoopState, saved: Saved) -> LoopResult:
     """The result of a run; with events, what is to be saved at its end is what follows the last of them."""
     log = None
     if last.events is not None:
@@ -141,10 +141,10 @@ def found(problem: Problem, last: Progress, saved: Saved) -> Found:
         at_end = last.x, last.events.d
         saved = jax.tree.map(lambda a, b: jnp.where(left, a, b), at_end, saved)
         log = last.events.log
-    return Found(saved, last.t, last.x, last.d, last.next, last.why, last.counts, log)
+    return LoopResult(saved, last.t, last.x, last.d, last.next, last.why, last.counts, log)
 
 
-def begin(method: Any, problem: Problem, start: Start) -> tuple[Progress, Saved]:
+def begin(method: Any, problem: Integration, start: LoopStart) -> tuple[LoopState, Saved]:
     """A run before its first step, and what is saved so far: nothing."""
     memory, counts = method.begin(problem.held(start.d), start.t, start.x)
     nothing = jax.tree.map(
@@ -157,19 +157,19 @@ def begin(method: Any, problem: Problem, start: Start) -> tuple[Progress, Saved]
     if start.d is not None:
         assert start.log is not None
         events = between_events.none_yet(problem.watched, start.t, start.d, start.log)
-    return Progress(start.t, start.x, following, ahead, memory, why, counts, events), nothing
+    return LoopState(start.t, start.x, following, ahead, memory, why, counts, events), nothing
 
 
 def advance(
     method: Any,
-    problem: Problem,
-    progress: Progress,
+    problem: Integration,
+    progress: LoopState,
     saved: Saved | None,
     rows: Row | None = None,
     *,
     until_stiff: bool = False,
     forward: bool = False,
-) -> tuple[Progress, Any, Row | None]:
+) -> tuple[LoopState, Any, Row | None]:
     """Make steps until the end, or until there is no more room for them.
 
     Arguments:
@@ -184,14 +184,14 @@ def advance(
     before = progress.counts.steps
     kinds = _kinds(problem)
 
-    def goes_on(carry: tuple[Progress, Any, Row | None]) -> Array:
+    def goes_on(carry: tuple[LoopState, Any, Row | None]) -> Array:
         c, _, rows = carry
         running = c.why < 0
         return running if rows is None else running & (c.counts.steps - before < len(rows.t))
 
     def body(
-        carry: tuple[Progress, Any, Row | None], runs: Array
-    ) -> tuple[Progress, Any, Row | None]:
+        carry: tuple[LoopState, Any, Row | None], runs: Array
+    ) -> tuple[LoopState, Any, Row | None]:
         c, saved, rows = carry
         stop = between_events.Stop(stop_at(problem, c.ahead), kinds[c.ahead], c.ahead)
         held = problem.held(c.d, stop.t)
@@ -279,7 +279,7 @@ def advance(
             is_stiff = made.stiff if seen is None else made.stiff & ~happens
             why = jnp.where(is_stiff, STIFF, why)
         why = jnp.where(reached, REACHED, why).astype(jnp.int32)
-        after = Progress(t, x, following, ahead, memory, why, counts, events)
+        after = LoopState(t, x, following, ahead, memory, why, counts, events)
         unchanged = c
         if c.events is not None and events is not None:  # the log does not grow where a run is over
             unchanged = c._replace(events=c.events._replace(log=events.log))
@@ -289,7 +289,7 @@ def advance(
     return while_any(goes_on, body, (progress, saved, rows))
 
 
-def row_like(method: Any, problem: Problem, progress: Progress) -> Row:
+def row_like(method: Any, problem: Integration, progress: LoopState) -> Row:
     """What one row looks like: something with its shapes and types."""
     p = progress
     made = eqx.filter_eval_shape(method.attempt, problem.held(p.d), p.memory, p.t, p.memory.h)
@@ -297,7 +297,7 @@ def row_like(method: Any, problem: Problem, progress: Progress) -> Row:
     return Row(p.t, p.t, p.next, p.next, p.next, p.ahead, p.x, made.row, p.d, band)
 
 
-def _kinds(problem: Problem) -> Int[Array, " n_breaks_1"]:
+def _kinds(problem: Integration) -> Int[Array, " n_breaks_1"]:
     """How steps end that end at breaks, or at the end."""
     kinds = jnp.append(jnp.where(problem.jumps, JUMP, STOP), STOP)
     if problem.restarts is not None:
@@ -305,7 +305,7 @@ def _kinds(problem: Problem) -> Int[Array, " n_breaks_1"]:
     return kinds.astype(jnp.int32)
 
 
-def _edge(problem: Problem, ahead: Ahead, stop: between_events.Stop) -> between_events.Stop:
+def _edge(problem: Integration, ahead: Ahead, stop: between_events.Stop) -> between_events.Stop:
     """The next edge of the right-hand side, if it comes before the stop."""
     edge, apart = jnp.minimum(ahead.jump, ahead.bend), problem.apart(stop.t)
     sooner = edge < stop.t - apart
@@ -321,7 +321,7 @@ def _edge(problem: Problem, ahead: Ahead, stop: between_events.Stop) -> between_
 
 
 def _begun_again(
-    method: Any, problem: Problem, row: Row, landing: Landing, moved: Array | None
+    method: Any, problem: Integration, row: Row, landing: Landing, moved: Array | None
 ) -> Landing:
     """The method begins anew behind a jump of the right-hand side, and where another run begins.
 
@@ -346,7 +346,7 @@ def _save(
     between: Callable[[Array], Array],
     ts: Array,
     saved: Saved | None,
-    c: Progress,
+    c: LoopState,
     reached: Array,
     happens: Bool[Array, ""],
     counts: Array,

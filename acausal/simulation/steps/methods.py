@@ -18,15 +18,15 @@ from acausal.simulation.newton import (
     fixed_tolerances,
 )
 from acausal.simulation.stages import ImplicitScheme
-from acausal.simulation.steps.bdf import BDF
+from acausal.simulation.steps.bdf import Multistep
 from acausal.simulation.steps.diagonal import Diagonal
 from acausal.simulation.steps.one_step import Foreign
 from acausal.simulation.steps.paced import Paced
-from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.runge_kutta import Explicit
 from acausal.simulation.tableau import tableau_of
 
-Method: TypeAlias = Explicit | Diagonal | Foreign | BDF
+Method: TypeAlias = Explicit | Diagonal | Foreign | Multistep
 
 
 def explicit() -> Explicit:
@@ -34,13 +34,13 @@ def explicit() -> Explicit:
     return Explicit(dfx.Tsit5())
 
 
-def stiff(problem: Problem, jacobian: StateJacobian) -> Method:
+def stiff(problem: Integration, jacobian: StateJacobian) -> Method:
     """The method for stiff models; with events, which end all that a multistep method knows, a one-step method."""
     solver = solvers.solver_named("stiff", events=problem.events is not None)
     return method_of(solver, problem, jacobian)
 
 
-def method_of(solver: solvers.Solver, problem: Problem, jacobian: StateJacobian) -> Method:
+def method_of(solver: solvers.Solver, problem: Integration, jacobian: StateJacobian) -> Method:
     """The method by which a solver's steps are made.
 
     Raises:
@@ -48,7 +48,7 @@ def method_of(solver: solvers.Solver, problem: Problem, jacobian: StateJacobian)
     """
     solver = solvers.for_adaptive_steps(solver)
     if isinstance(solver, solvers.BDF):
-        return BDF(NewtonMatrix(jacobian))
+        return Multistep(NewtonMatrix(jacobian))
     if isinstance(solver, dfx.AbstractRungeKutta):
         return _one_step(solver, jacobian, problem.tolerances, ADAPTIVE)
     return Foreign(solver)

@@ -14,7 +14,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import without_derivatives
-from acausal.simulation.steps.problem import Attempt, Counts, Problem, RightHandSide
+from acausal.simulation.steps.problem import Attempt, Counts, Integration, RightHandSide
 
 State = Float[Array, " n_states"]
 
@@ -91,7 +91,7 @@ class Look(NamedTuple):
 
 
 def look_inside(
-    problem: Problem,
+    problem: Integration,
     error: Array,
     points: tuple[float, ...],
     size: Callable[[Any], Array],
@@ -117,7 +117,7 @@ def look_inside(
 
 
 def defect(
-    method: Any, problem: Problem, dense: Any, t: Array, h: Array, share: Any
+    method: Any, problem: Integration, dense: Any, t: Array, h: Array, share: Any
 ) -> tuple[Array, State]:
     """A time within a step, and how far its interpolation is there from the equations, times the step's length."""
     at = t + share * h
@@ -151,7 +151,7 @@ class OneStep(eqx.Module):
     def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: Any) -> Made:
         """One step."""
 
-    def begin(self, problem: Problem, t: Array, x: State) -> tuple[Memory, Counts]:
+    def begin(self, problem: Integration, t: Array, x: State) -> tuple[Memory, Counts]:
         """What is known at the begin, or after a jump; and what that cost."""
         f = problem.field(t, x)
         h = first_length(problem, t, x, f, self._order)
@@ -165,7 +165,7 @@ class OneStep(eqx.Module):
         """What is known behind a jump: how often stability has limited the steps is not forgotten."""
         return memory._replace(limited=before.limited, free=before.free)
 
-    def attempt(self, problem: Problem, memory: Memory, t: Array, h: Array) -> Attempt:
+    def attempt(self, problem: Integration, memory: Memory, t: Array, h: Array) -> Attempt:
         """Try a step of length h from t."""
         x = memory.x
         made = self.make(problem.field, t, h, x, memory.first)
@@ -196,7 +196,7 @@ class OneStep(eqx.Module):
         )
 
     def _look(
-        self, problem: Problem, made: Made, t: Array, h: Array, x: State, error: Array
+        self, problem: Integration, made: Made, t: Array, h: Array, x: State, error: Array
     ) -> Look:
         """The error with what the right-hand side is at two more points."""
         fixed, dense, t, h, x, end = without_derivatives((problem, made.dense, t, h, x, made.x))
@@ -300,7 +300,7 @@ def part_of_step(t: Array, h: Array, at: Array) -> Array:
     return jnp.where(none, 1.0, (at - t) / jnp.where(none, 1.0, h))
 
 
-def first_length(problem: Problem, t: Array, x: State, f: State, order: float) -> Array:
+def first_length(problem: Integration, t: Array, x: State, f: State, order: float) -> Array:
     """A length for the first step (Hairer, Nørsett & Wanner 1993, II.4)."""
     x, f = lax.stop_gradient((x, f))
     d0, d1 = problem.size(x, x), problem.size(f, x)

@@ -21,7 +21,7 @@ from acausal.simulation.log import Log
 from acausal.simulation.solvers import Scheme, Solver
 from acausal.simulation.steps.loop import REACHED
 from acausal.simulation.steps.methods import paced
-from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.solve import solve
 
 if TYPE_CHECKING:
@@ -197,7 +197,7 @@ def integrate_in_steps(
         if events is not None:
             first = _firsts(system, clock, runs)
         others = jax.tree.map(spread, (restarts.begins[1:], *first))
-    problem = Problem(
+    problem = Integration(
         clock,
         start.x,
         edges[0],

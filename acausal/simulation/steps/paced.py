@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from acausal.simulation.steps.one_step import Made, Memory, OneStep, part_of_step
-from acausal.simulation.steps.problem import Attempt, Counts, Problem, RightHandSide
+from acausal.simulation.steps.problem import Attempt, Counts, Integration, RightHandSide
 from acausal.simulation.steps.runge_kutta import Explicit
 
 
@@ -49,7 +49,7 @@ class Paced(eqx.Module):
         bend = (1 - 2 * s) * (x1 - x0) + (s - 1) * h * f0 + s * h * f1
         return (1 - s) * x0 + s * x1 + s * (s - 1) * bend
 
-    def begin(self, problem: Problem, t: Array, x: Array) -> tuple[Memory, Counts]:
+    def begin(self, problem: Integration, t: Array, x: Array) -> tuple[Memory, Counts]:
         """What is known at the begin, or after an event."""
         h = jnp.full_like(t, jnp.inf)
         zero = jnp.zeros((), jnp.int32)
@@ -62,7 +62,7 @@ class Paced(eqx.Module):
         """What is known behind a jump."""
         return memory
 
-    def attempt(self, problem: Problem, memory: Memory, t: Array, h: Array) -> Attempt:
+    def attempt(self, problem: Integration, memory: Memory, t: Array, h: Array) -> Attempt:
         """Make a step of length h from t."""
         made = self.make(problem.field, t, h, memory.x, memory.first)
         done = made.done & jnp.all(jnp.isfinite(made.x))
@@ -73,6 +73,6 @@ class Paced(eqx.Module):
 
     adjoint, at_start, back = OneStep.adjoint, OneStep.at_start, OneStep.back
 
-    def _first(self, problem: Problem, t: Array, x: Array) -> Any:
+    def _first(self, problem: Integration, t: Array, x: Array) -> Any:
         h = jnp.ones_like(t)
         return self.first(problem.field, t, h, x, problem.field(t, x))

@@ -104,7 +104,7 @@ class Sided(eqx.Module):
         return self.at(t)(x)
 
 
-class Problem(eqx.Module):
+class Integration(eqx.Module):
     """A run to be made.
 
     Attributes:
@@ -145,7 +145,7 @@ class Problem(eqx.Module):
 
     def held(
         self, d: Float[Array, " n_discrete"] | None, until: Float[Array, ""] | None = None
-    ) -> Problem:
+    ) -> Integration:
         """The problem between two events; up to a time at which inputs may jump, they are what they are before it.
 
         Stages of a step lie at its end, and beyond it (Kvaerno5): what they read there would belong to the next step,
@@ -174,7 +174,7 @@ class Problem(eqx.Module):
         found = self.field.ahead(t, self.apart(t))
         return Ahead(*(jnp.asarray(v, dtype) for v in found))
 
-    def sided(self, t: Float[Array, ""], edge: Float[Array, ""]) -> Problem:
+    def sided(self, t: Float[Array, ""], edge: Float[Array, ""]) -> Integration:
         """The problem between a time and the next edge behind it."""
         low, high = lax.stop_gradient((t + self.apart(t), edge - self.apart(t)))
         return eqx.tree_at(lambda p: p.field, self, Sided(self.field, low, high))

@@ -20,16 +20,16 @@ from acausal.simulation.steps.event_adjoint import (
     through_restart,
 )
 from acausal.simulation.steps.loop import (
-    Found,
-    Progress,
-    Start,
+    LoopResult,
+    LoopStart,
+    LoopState,
     advance,
     begin,
     found,
     row_like,
     search,
 )
-from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.rows import (
     EDGE,
     RESTART,
@@ -60,7 +60,7 @@ MORE_MEMORY, ENOUGH = 2**24, 1536
 """Numbers that this many steps may take where `MEMORY` has no room for the fewest: such a model's steps take longer."""
 
 
-class Steps(eqx.Module):
+class RecordedSteps(eqx.Module):
     """The steps that a run has made.
 
     Attributes:
@@ -69,14 +69,16 @@ class Steps(eqx.Module):
         end: what the run found, but for what it saved.
     """
 
-    parts: Progress
+    parts: LoopState
     count: Int[Array, ""]
     rows: Row
     n: Int[Array, ""]
     end: tuple[Any, ...]
 
 
-def reverse(method: Any, problem: Problem, start: Start, *, until_stiff: bool = False) -> Found:
+def reverse(
+    method: Any, problem: Integration, start: LoopStart, *, until_stiff: bool = False
+) -> LoopResult:
     """`search`, with derivatives in reverse mode.
 
     The states of all steps are kept, as far as there is room (`_size`). Of a longer run they are kept part by part:
@@ -90,7 +92,7 @@ def reverse(method: Any, problem: Problem, start: Start, *, until_stiff: bool = 
     )
 
 
-def _kept(task: Task, until_stiff: bool) -> tuple[Found, Steps]:
+def _kept(task: Task, until_stiff: bool) -> tuple[LoopResult, RecordedSteps]:
     """The result of a run, and its steps."""
     method, problem, start = task
     progress, saved = begin(method, problem, start)
@@ -114,10 +116,12 @@ def _kept(task: Task, until_stiff: bool) -> tuple[Found, Steps]:
         while_any(lambda s: s[1].why < 0, one, state) if most > 1 else one(state, jnp.array(True))
     )
     count, last, saved, parts, rows, n = state
-    return found(problem, last, saved), Steps(parts, count, rows, n, (last.next, last.x, last.d))
+    return found(problem, last, saved), RecordedSteps(
+        parts, count, rows, n, (last.next, last.x, last.d)
+    )
 
 
-def _size(numbers: int, problem: Problem) -> int:
+def _size(numbers: int, problem: Integration) -> int:
     """How many steps of so many numbers are kept."""
     if problem.events is not None:
         return max(EVENT_MEMORY // numbers, FEWEST)
@@ -126,7 +130,7 @@ def _size(numbers: int, problem: Problem) -> int:
 
 
 def _back(
-    until_stiff: bool, of_moved: OfMoved, own: list[Array], kept: Steps, to: Found
+    until_stiff: bool, of_moved: OfMoved, own: list[Array], kept: RecordedSteps, to: LoopResult
 ) -> list[Array]:
     """The cotangents of what moves."""
     method, problem, _ = of_moved(own)
@@ -202,7 +206,7 @@ def _through_step(
     own: list[Array],
     row: Row,
     begin: Array,
-    to: Found,
+    to: LoopResult,
     which: tuple[Array, Array],
     behind: Adjoint,
 ) -> Adjoint:
@@ -253,7 +257,7 @@ def _through_event(
     of_moved: OfMoved,
     own: list[Array],
     row: Row,
-    to: Found,
+    to: LoopResult,
     which: tuple[Array, Array],
     then: tuple[Array, Array],
     behind: Adjoint,

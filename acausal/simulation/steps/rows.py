@@ -13,7 +13,7 @@ from jaxtyping import Array, Float, Int
 from acausal._jax import without_derivatives
 from acausal.codegen import Values
 from acausal.events import After, Rates, due, fire, guards
-from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.problem import Integration
 
 FREE, STOP, BEND, EDGE, RESTART, JUMP, TIMED, STATE = range(8)
 """How a step ends: as long as it was; at a known time; where the right-hand side is known to bend, or to jump; where
@@ -61,11 +61,11 @@ class Reach(NamedTuple):
     dense: Any
 
 
-Event = Callable[[Problem, Row, Reach, Array], tuple[Array, After]]
+Event = Callable[[Integration, Row, Reach, Array], tuple[Array, After]]
 """Time and values behind an event."""
 
 
-def stop_at(problem: Problem, i: Int[Array, ""]) -> Float[Array, ""]:
+def stop_at(problem: Integration, i: Int[Array, ""]) -> Float[Array, ""]:
     """One of the known times at which steps end: those of breaks, then the end."""
     n = len(problem.breaks)
     if not n:
@@ -73,7 +73,7 @@ def stop_at(problem: Problem, i: Int[Array, ""]) -> Float[Array, ""]:
     return jnp.where(i < n, problem.breaks[jnp.minimum(i, n - 1)], problem.end)
 
 
-def next_edge(problem: Problem, t: Float[Array, ""]) -> Float[Array, ""]:
+def next_edge(problem: Integration, t: Float[Array, ""]) -> Float[Array, ""]:
     """The next time at which the right-hand side jumps or bends; infinite if there is none."""
     ahead = problem.ahead(t)
     return jnp.minimum(ahead.jump, ahead.bend)
@@ -81,7 +81,7 @@ def next_edge(problem: Problem, t: Float[Array, ""]) -> Float[Array, ""]:
 
 def reach(
     method: Any,
-    problem: Problem,
+    problem: Integration,
     row: Row,
     t: Float[Array, ""],
     x: Float[Array, " n_states"],
@@ -157,12 +157,12 @@ def chosen(numbers: Float[Array, " n"], which: Int[Array, ""]) -> Float[Array, "
     return jnp.sum(jnp.where(jnp.arange(len(numbers)) == which, numbers, 0.0))
 
 
-def values_at(problem: Problem, t: Array, x: Array, d: Array) -> Values:
+def values_at(problem: Integration, t: Array, x: Array, d: Array) -> Values:
     """The values between events."""
     return problem.held(d).field.at(t).values(x)
 
 
-def rates_at(problem: Problem, t: Array) -> Rates:
+def rates_at(problem: Integration, t: Array) -> Rates:
     """The conditions' numbers at a time, and how fast they grow, for states and discrete variables.
 
     Without derivatives.
@@ -179,7 +179,7 @@ def rates_at(problem: Problem, t: Array) -> Rates:
 
 
 def follow(
-    problem: Problem, row: Row, end: Reach, d: Array, in_turn: Event | None = None
+    problem: Integration, row: Row, end: Reach, d: Array, in_turn: Event | None = None
 ) -> tuple[Float[Array, ""], After]:
     """What follows a step that ends with an event, or where another run begins.
 
@@ -205,7 +205,7 @@ def follow(
     return lax.cond(row.kind == RESTART, restart, event)
 
 
-def restarted(problem: Problem, which: Int[Array, ""]) -> tuple[Array, Array | None]:
+def restarted(problem: Integration, which: Int[Array, ""]) -> tuple[Array, Array | None]:
     """States and discrete variables with which another run begins at a break."""
     assert problem.first is not None
     at = jnp.minimum(which, len(problem.breaks) - 1)

@@ -19,9 +19,9 @@ from acausal.simulation.log import FEW_VALUES, VALUES, Log
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.statistics import Statistics
-from acausal.simulation.steps.loop import CHATTERS, EXHAUSTED, NOT_CONVERGED, REACHED, Found
+from acausal.simulation.steps.loop import CHATTERS, EXHAUSTED, NOT_CONVERGED, REACHED, LoopResult
 from acausal.simulation.steps.methods import paced
-from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.solve import Solved, solve
 from acausal.simulation.steps.tolerances import Tolerance
 
@@ -110,7 +110,7 @@ def simulate_in_steps(
         chosen = dfx.Tsit5() if solver is None else solver
         scheme = solvers.for_fixed_steps(chosen)
         method = paced(scheme, run.system.state_jacobian, dtype)
-    problem = Problem(
+    problem = Integration(
         ModelField(run.start.packed, run.inputs, run.system, run.start.d),
         run.start.x,
         array(run.begin),
@@ -189,7 +189,7 @@ def _stopped(
     )
 
 
-def _last(run: Run, found: Found) -> str:
+def _last(run: Run, found: LoopResult) -> str:
     """The conditions that changed last."""
     if found.log is None:
         return ""

@@ -15,7 +15,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal.events import After, Rates, due, fire, guards
-from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.rows import Reach, Row, chosen, grazes, rates_at, values_at
 
 MOST = 8
@@ -65,7 +65,7 @@ def guard_of(row: Row, i: Int[Array, ""]) -> Int[Array, ""]:
 
 
 def still_wait(
-    problem: Problem, row: Row, turn: Turn, t: Array, x: Array, d: Array
+    problem: Integration, row: Row, turn: Turn, t: Array, x: Array, d: Array
 ) -> Bool[Array, ""]:
     """Whether the conditions that wait are still about to change."""
     numbers = lax.stop_gradient(guards(problem.watched, values_at(problem, t, x, d)))
@@ -73,7 +73,7 @@ def still_wait(
 
 
 def until(
-    problem: Problem, row: Row, guard: Int[Array, ""], t: Array, x: Array, d: Array
+    problem: Integration, row: Row, guard: Int[Array, ""], t: Array, x: Array, d: Array
 ) -> tuple[Float[Array, ""], Float[Array, " n_states"]]:
     """Time and states where a condition changes: those given, with other derivatives."""
     field, events = problem.held(d).field, problem.watched
@@ -98,7 +98,7 @@ def until(
 
 
 def follow_in_turn(
-    problem: Problem, row: Row, end: Reach, d: Array
+    problem: Integration, row: Row, end: Reach, d: Array
 ) -> tuple[Float[Array, ""], After]:
     """Time and values behind an event, with derivatives in forward mode."""
     rates = rates_at(problem, end.t)

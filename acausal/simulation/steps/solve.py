@@ -15,24 +15,24 @@ from acausal.codegen import StateJacobian
 from acausal.errors import SimulationError
 from acausal.simulation.log import Log
 from acausal.simulation.solvers import Solver
-from acausal.simulation.steps.loop import EXHAUSTED, STIFF, Found, Start, search
+from acausal.simulation.steps.loop import EXHAUSTED, STIFF, LoopResult, LoopStart, search
 from acausal.simulation.steps.methods import Method, explicit, method_of, stiff
 from acausal.simulation.steps.one_step import OneStep
 from acausal.simulation.steps.paced import Paced
-from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.replay import reverse
 
 
 class Solved(NamedTuple):
     """A result, the method's name, and the time from which on the model was stiff (NaN where that was not asked)."""
 
-    found: Found
+    found: LoopResult
     method: str
     stiff_from: Float[Array, ""]
 
 
 def solve(
-    problem: Problem,
+    problem: Integration,
     solver: Solver | Paced | None,
     jacobian: StateJacobian,
     *,
@@ -53,7 +53,7 @@ def solve(
     Raises:
         SimulationError: for a solver that knows more than the state at a step's start, if there are events.
     """
-    start = Start(problem.begin, problem.x, array(0, int), d, log)
+    start = LoopStart(problem.begin, problem.x, array(0, int), d, log)
     if solver is None:
         return _automatic(problem, start, jacobian, forward)
     method = solver if isinstance(solver, Paced) else method_of(solver, problem, jacobian)
@@ -66,7 +66,9 @@ def solve(
     return Solved(found, method.name, array(np.nan))
 
 
-def _automatic(problem: Problem, start: Start, jacobian: StateJacobian, forward: bool) -> Solved:
+def _automatic(
+    problem: Integration, start: LoopStart, jacobian: StateJacobian, forward: bool
+) -> Solved:
     """Explicit steps, and implicit ones from where the model turns out to be stiff."""
     method, second = explicit(), stiff(problem, jacobian)
     first = _run(method, problem, start, True, forward)
@@ -75,7 +77,7 @@ def _automatic(problem: Problem, start: Start, jacobian: StateJacobian, forward:
         return Solved(first, method.name, array(np.inf, first.t.dtype))
     goes_on = (first.why == STIFF) | (first.why == EXHAUSTED)
     begin = jnp.where(goes_on, first.t, problem.end)  # nothing is left to do where it is not stiff
-    again = Start(begin, first.x, first.next, first.d, first.log)
+    again = LoopStart(begin, first.x, first.next, first.d, first.log)
     rest = _run(second, problem, again, False, forward)
     earlier = (jnp.arange(len(problem.ts)) < first.next)[:, None]
     joined = rest._replace(
@@ -89,17 +91,17 @@ def _automatic(problem: Problem, start: Start, jacobian: StateJacobian, forward:
 
 @compiled
 def _run(
-    method: Method | Paced, problem: Problem, start: Start, until_stiff: bool, forward: bool
-) -> Found:
+    method: Method | Paced, problem: Integration, start: LoopStart, until_stiff: bool, forward: bool
+) -> LoopResult:
     if problem.events is not None:
         method = method.with_tangents()  # where a step ends follows from its derivative by length
     arrays, rest = eqx.partition((method, problem, start), eqx.is_array)
 
-    def forwards(arrays: PyTree) -> Found:
+    def forwards(arrays: PyTree) -> LoopResult:
         method, problem, start = eqx.combine(arrays, rest)
         return search(method.with_tangents(), problem, start, until_stiff=until_stiff, forward=True)
 
-    def backwards(arrays: PyTree) -> Found:
+    def backwards(arrays: PyTree) -> LoopResult:
         return reverse(*eqx.combine(arrays, rest), until_stiff=until_stiff)
 
     return forwards(arrays) if forward else two_modes(backwards, forwards)(arrays)

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal.data import Data
-from acausal.networks import Affine, Scales, Shape, lacks_scales, linear_shape, with_scales
+from acausal.networks import Affine, LawShape, Scales, lacks_scales, linear_shape, with_scales
 from acausal.training.auto.linear_start import (
     LinearStart,
     linear_module,
@@ -175,7 +175,7 @@ def automatic(
     return Automatic(settled, new, stages, free, start if shapes else None, noise, fixed)
 
 
-def _start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
+def _start(problem: Problem, shapes: dict[str, LawShape]) -> LinearStart:
     if shapes:
         return linear_start(problem, shapes)
     trainable = problem.start()
@@ -232,7 +232,7 @@ def _pieces(
 
 
 def _scales(
-    start: LinearStart, shapes: dict[str, Shape], explains: bool
+    start: LinearStart, shapes: dict[str, LawShape], explains: bool
 ) -> dict[str, tuple[Scales, Affine]]:
     """By network, its scales and its linear law."""
     if not shapes:
@@ -250,7 +250,7 @@ def _scales(
 
 
 def _scales_of(
-    seen: np.ndarray, law: Affine, sensitive: Affine, shape: Shape
+    seen: np.ndarray, law: Affine, sensitive: Affine, shape: LawShape
 ) -> tuple[Scales, Affine]:
     low, high = (
         (seen.min(axis=0), seen.max(axis=0))

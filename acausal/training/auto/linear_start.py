@@ -18,7 +18,7 @@ from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Float
 
 from acausal._jax import compiled
-from acausal.networks import Affine, BesideLinear, BesideQuadratic, Scales, Shape
+from acausal.networks import Affine, BesideLinear, BesideQuadratic, LawShape, Scales
 from acausal.simulation import EXPLICIT
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
@@ -59,7 +59,7 @@ def nothing(*inputs: Any) -> Array:
     return jnp.zeros(())
 
 
-def linear_module(shape: Shape, law: Affine | None = None) -> BesideLinear | BesideQuadratic:
+def linear_module(shape: LawShape, law: Affine | None = None) -> BesideLinear | BesideQuadratic:
     """A linear law, or the energy of one; by default zero."""
     slope = np.zeros(shape.inputs) if law is None else np.asarray(law.slope)
     offset = None if shape.through_zero else jnp.asarray(law.offset if law else 0.0, float)
@@ -92,7 +92,7 @@ class LinearStart:
     title: str = "linear law"
 
 
-def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
+def linear_start(problem: Problem, shapes: dict[str, LawShape]) -> LinearStart:
     """The linear laws that explain records best.
 
     Arguments:
@@ -133,7 +133,7 @@ def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
 
 
 def with_constants_at_zero(
-    start: LinearStart, shapes: dict[str, Shape], scales: dict[str, Scales]
+    start: LinearStart, shapes: dict[str, LawShape], scales: dict[str, Scales]
 ) -> LinearStart:
     """The same start with laws that vanish at zero, where neither records nor what is known of starts tell a constant.
 
@@ -166,7 +166,7 @@ def with_constants_at_zero(
     return replace(start, loose=tuple(n for n in shapes if n in loose))
 
 
-def _has_constant(shape: Shape) -> bool:
+def _has_constant(shape: LawShape) -> bool:
     """Whether a law has a constant that can be subtracted from it."""
     open_ = not shape.through_zero and not shape.energy and not shape.positive
     return open_ and shape.every == 1
@@ -196,7 +196,7 @@ def _samples(problem: Problem) -> int:
 
 
 def _deviation(
-    covariance: np.ndarray, places: Sequence[int], shape: Shape, scales: Scales
+    covariance: np.ndarray, places: Sequence[int], shape: LawShape, scales: Scales
 ) -> float:
     """The standard deviation of a law in the middle of its range."""
     by = np.zeros(len(covariance))
@@ -206,7 +206,7 @@ def _deviation(
 
 def _linear(
     objective: Problem,
-    shapes: dict[str, Shape],
+    shapes: dict[str, LawShape],
     point: np.ndarray,
     loss: float,
     hessian: np.ndarray,
@@ -230,7 +230,7 @@ def _unlike(losses: np.ndarray, most: int) -> list[int]:
     return found
 
 
-def _places(problem: Problem, shapes: dict[str, Shape]) -> dict[str, list[int]]:
+def _places(problem: Problem, shapes: dict[str, LawShape]) -> dict[str, list[int]]:
     """Where each network's slopes and offset are in the vector of all that is trained."""
     start = problem.start()
     size = ravel_pytree(start)[0].size
@@ -244,18 +244,18 @@ def _places(problem: Problem, shapes: dict[str, Shape]) -> dict[str, list[int]]:
     }
 
 
-def _law(point: np.ndarray, places: Sequence[int], shape: Shape) -> Affine:
+def _law(point: np.ndarray, places: Sequence[int], shape: LawShape) -> Affine:
     values = [float(point[k]) for k in places]
     return Affine(tuple(values[: shape.inputs]), 0.0 if shape.through_zero else values[-1])
 
 
-def _rising(places: dict[str, list[int]], shapes: dict[str, Shape]) -> list[int]:
+def _rising(places: dict[str, list[int]], shapes: dict[str, LawShape]) -> list[int]:
     """Places of what must not be negative: slopes of laws that rise, and constants of positive ones."""
     slopes = [k for n, shape in shapes.items() if shape.rising for k in places[n][: shape.inputs]]
     return slopes + [places[n][-1] for n, shape in shapes.items() if shape.positive]
 
 
-def _decades(base: np.ndarray, places: Sequence[int], shape: Shape) -> list[np.ndarray]:
+def _decades(base: np.ndarray, places: Sequence[int], shape: LawShape) -> list[np.ndarray]:
     """Points that differ from another one by one slope, or the offset, of one law."""
     points: list[np.ndarray] = [base]
     for i, place in enumerate(places):

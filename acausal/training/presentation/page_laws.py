@@ -9,7 +9,15 @@ import numpy as np
 
 from acausal.analysis import labels
 from acausal.networks import law_at
-from acausal.pages import Known, Law, component_cards, motion, parallel_law, schematic, summary
+from acausal.pages import (
+    Known,
+    LearnedLaw,
+    component_cards,
+    motion,
+    parallel_law,
+    schematic,
+    summary,
+)
 from acausal.reporting import Block, Curve, PageContent, Plot, Tab, Text, titled_sections
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Band
@@ -50,7 +58,7 @@ def content_with_laws(
         )
     found = [Tab(name, titled_sections(sections)) for name, sections in every.items()]
     moving = motion([*known.runs.values()][-1]) if known.runs else ()
-    known = replace(known, laws=[Law(n, tuple(law)) for n, law in laws.items()])
+    known = replace(known, laws=[LearnedLaw(n, tuple(law)) for n, law in laws.items()])
     return PageContent(
         title,
         lead,
