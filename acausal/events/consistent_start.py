@@ -14,7 +14,9 @@ from acausal.codegen import Values
 from acausal.errors import InitializationError, listing
 from acausal.events.event_formulas import Events
 from acausal.events.event_iteration import (
+    ALL_AT_ONCE,
     COINCIDE,
+    ONE_BY_ONE,
     PASSES,
     After,
     Pass,
@@ -77,7 +79,7 @@ def non_converged(events: Events, at: Values) -> list[int]:
     d, none = at.d, -jnp.ones(events.n_guards, at.x.dtype)
     changed = np.zeros(len(d), bool)
     for k in range(2 * CIRCLE):
-        new = once_more(events, at, d, none, none)
+        new = once_more(events, at, d, none, none, ALL_AT_ONCE + ONE_BY_ONE)
         if k >= CIRCLE:
             changed |= ~np.asarray(equal(new, d))
         d = new

@@ -91,11 +91,6 @@ class MultiportCompliance(PartialNetwork):
 
 class PartialFrictionCurve(PartialNetwork):
     """Base of friction whose curve is a network ``net`` of the speed, positive for all weights."""
-
-    input_scale: ClassVar[ac.Option]
-    """magnitude of the inputs, one number or one for each"""
-    output_scale: ClassVar[ac.Option]
-    """magnitude of the output"""
     def __init__(self, **modifiers: Any) -> None: ...
 
 class PartialLaw(PartialNetwork):
