@@ -1,7 +1,8 @@
 """``python -m benchmarks.events``: what events cost.
 
-A buck converter of 10 kHz over a second beside C, its gradient, a ball's events in right-hand sides, a thousand
-balls side by side, and how programs of many ideal diodes grow. Ratios are medians over rounds in which both take turns.
+A buck converter of 10 kHz over a second beside C, its gradient, a ball's events in right-hand sides, a thousand balls
+side by side, how programs of many ideal diodes grow, and stiff plates of many states with a thermostat. Ratios are
+medians over rounds in which both take turns.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ import jax
 import jax.numpy as jnp
 
 import acausal as ac
-from acausal.components import electrical as el
+from acausal.components import electrical as el, thermal
+from benchmarks.stiff.plate import Plate
 
 ROUNDS = 9
 SPAN, STEP = 1.0, 1e-5
@@ -225,9 +227,44 @@ def diodes() -> dict[str, float]:
     return found
 
 
+class HeatedPlate(Plate):
+    """A plate whose first capacity is heated until it is hot: a stiff model with an event."""
+
+    flow = ac.Output(unit="W")
+    on = ac.Discrete(1, kind="bool")
+
+    def __init__(self, n: int) -> None:
+        super().__init__(n)
+        self.heater = thermal.PrescribedHeatFlow()
+        self.connect(self.heater.port, self.cells[0].port)
+        self.connect(self.flow, self.heater.Q_flow)
+
+    def equations(self) -> Iterator[Any]:
+        first = self.cells[0].T
+        cold = ac.where(first < 315.0, 1, ac.pre(self.on))
+        yield ac.Eq(self.flow, ac.where(self.on, 400.0, 0.0))
+        yield ac.Eq(self.on, ac.where(first > 320.0, 0, cold))
+
+
+def plates() -> dict[str, float]:
+    """Implicit steps of plates with events: the first simulation, and further ones."""
+    found: dict[str, float] = {}
+    for n in (20, 50, 70):
+        system = ac.compile(HeatedPlate(n))
+
+        def run(system: ac.System = system) -> Any:
+            return ac.simulate(system, 20.0, solver="stiff", saveat=[0.0, 20.0]).x
+
+        begin = time.perf_counter()
+        jax.block_until_ready(run())
+        found[f"plate_{n * n}_first_seconds"] = time.perf_counter() - begin
+        found[f"plate_{n * n}_seconds"] = seconds(run)[0]
+    return found
+
+
 def main() -> None:
     """Measure all, or the parts that are named."""
-    parts = {"buck": buck, "balls": balls, "cost": cost, "diodes": diodes}
+    parts = {"buck": buck, "balls": balls, "cost": cost, "diodes": diodes, "plates": plates}
     found: dict[str, float] = {}
     for name in sys.argv[1:] or parts:
         own = parts[name]()
