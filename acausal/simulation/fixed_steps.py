@@ -225,12 +225,8 @@ def integrate(
     """
     outputs = tuple(outputs)
     explicit = isinstance(solver, EXPLICIT)
-    tableau = tableau_of(solver)
-    advance = (
-        _explicit(tableau.without_estimate())
-        if explicit
-        else _implicit(tableau, system.state_jacobian, start.x.dtype)
-    )
+    tableau, dtype = tableau_of(solver).without_estimate(), start.x.dtype
+    advance = _explicit(tableau) if explicit else _implicit(tableau, system.state_jacobian, dtype)
     equal = steps.h if steps.h.ndim == 0 else None
     constant = start._replace(t=None, x=None, u=None)
     constants, fixed = eqx.partition((constant, steps.inputs.functions, equal), eqx.is_array)

@@ -162,7 +162,7 @@ class Equation(eqx.Module):
 
     @property
     def rates(self) -> Rates:
-        """F."""
+        """The right-hand side, f."""
         return self.fields(self.at)
 
     def residual(self, x: State) -> State:

@@ -40,12 +40,20 @@ class Tableau(NamedTuple):
         return any(self.diagonal)
 
     def without_estimate(self) -> Tableau:
-        """Without the last stages if these serve only the estimate of the error."""
-        needed = max(i for i, b in enumerate(self.weights) if b) + 1
-        if self.is_implicit:
-            return self
-        rows, diagonal = self.rows[:needed], self.diagonal[:needed]
-        return Tableau(rows, diagonal, self.fractions[:needed], self.weights[:needed])
+        """Without the stages that serve only the estimate of the error."""
+        needed = {i for i, b in enumerate(self.weights) if b}
+        for i in reversed(range(len(self.rows))):
+            needed |= {j for j, a in enumerate(self.rows[i]) if a and i in needed}
+
+        def kept(row: Sequence[float]) -> tuple[float, ...]:
+            return tuple(v for i, v in enumerate(row) if i in needed)
+
+        rows, guesses = (
+            tuple(kept(row) for i, row in enumerate(part) if i in needed)
+            for part in (self.rows, self.guesses)
+        )
+        own = (kept(part) for part in (self.diagonal, self.fractions, self.weights))
+        return Tableau(rows, *own, guesses=guesses)
 
     def square(self, rows: Sequence[Sequence[float]]) -> Float[np.ndarray, "n_stages n_stages"]:
         """Rows by stage as a matrix, with zeros where they end."""
@@ -70,7 +78,8 @@ def tableau_of(solver: Scheme) -> Tableau:
     if isinstance(solver, dfx.Euler):
         return Tableau(((),), (0.0,), (0.0,), (1.0,))
     if isinstance(solver, dfx.ImplicitEuler):
-        return Tableau(((),), (1.0,), (1.0,), (1.0,))
+        heun = (-0.5, 0.5)  # diffrax takes the difference from Heun's method for the error
+        return Tableau(((), (0.0,)), (0.0, 1.0), (0.0, 1.0), (0.0, 1.0), heun, hands_on=True)
     tableau = cast(dfx.ButcherTableau, cast(dfx.AbstractERK, solver).tableau)
     rows = ((), *map(_floats, tableau.a_lower))
     diagonal = np.zeros(len(rows)) if tableau.a_diagonal is None else tableau.a_diagonal

@@ -100,6 +100,14 @@ class Thermostat(Plate):
         yield ac.Eq(self.on, ac.where(first > 320.0, 0, cold))
 
 
+@pytest.mark.parametrize("name", ["implicit_euler", "kvaerno4"])
+def test_implicit_schemes_choose_their_steps(name: str) -> None:
+    system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), -50 * (s.x - 1))]))
+    saved = np.linspace(0.0, 1.0, 11)
+    found = ac.simulate(system, 1.0, x0={"x": 0.0}, solver=name, saveat=saved, rtol=1e-5)
+    np.testing.assert_allclose(found["x"], 1 - np.exp(-50 * saved), atol=2e-3)
+
+
 def test_stiff_models_with_events_have_sparse_steps() -> None:
     system = ac.compile(Thermostat(11))
     assert isinstance(system.state_jacobian.iteration_matrix, SparseIterationMatrix)

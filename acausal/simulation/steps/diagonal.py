@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import diffrax as dfx
 import jax.numpy as jnp
 from jaxtyping import Array
 
@@ -38,7 +39,9 @@ class Diagonal(OneStep):
         counts = Counts.of(
             rates=found.corrections, jacobians=found.jacobians, corrections=found.corrections
         )
-        dense = {"y0": x, "y1": end, "k": k}
+        dense = {"y0": x, "y1": end}
+        if self.solver.interpolation_cls is not dfx.LocalLinearInterpolation:
+            dense["k"] = k
         return Made(end, error, dense, last, found.done, jnp.zeros_like(h), counts)
 
 

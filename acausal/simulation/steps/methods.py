@@ -24,7 +24,7 @@ from acausal.simulation.steps.one_step import Foreign
 from acausal.simulation.steps.paced import Paced
 from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.runge_kutta import Explicit
-from acausal.simulation.tableau import tableau_of
+from acausal.simulation.tableau import Tableau, tableau_of
 
 Method: TypeAlias = Explicit | Diagonal | Foreign | Multistep
 
@@ -49,20 +49,24 @@ def method_of(solver: solvers.Solver, problem: Integration, jacobian: StateJacob
     solver = solvers.for_adaptive_steps(solver)
     if isinstance(solver, solvers.BDF):
         return Multistep(NewtonMatrix(jacobian))
-    if isinstance(solver, dfx.AbstractRungeKutta):
-        return _one_step(solver, jacobian, problem.tolerances, ADAPTIVE)
+    if isinstance(solver, dfx.AbstractRungeKutta | dfx.ImplicitEuler):
+        return _one_step(solver, tableau_of(solver), jacobian, problem.tolerances, ADAPTIVE)
     return Foreign(solver)
 
 
 def paced(scheme: solvers.Scheme, jacobian: StateJacobian, dtype: DTypeLike) -> Paced:
     """Steps of given length by a scheme."""
-    return Paced(_one_step(scheme, jacobian, fixed_tolerances(dtype), FIXED))
+    tableau = tableau_of(scheme).without_estimate()
+    return Paced(_one_step(scheme, tableau, jacobian, fixed_tolerances(dtype), FIXED))
 
 
 def _one_step(
-    solver: solvers.Scheme, jacobian: StateJacobian, tolerances: Tolerances, patience: Patience
+    solver: solvers.Scheme,
+    tableau: Tableau,
+    jacobian: StateJacobian,
+    tolerances: Tolerances,
+    patience: Patience,
 ) -> Explicit | Diagonal:
-    tableau = tableau_of(solver)
     if not tableau.is_implicit:
         return Explicit(solver)
     scheme = ImplicitScheme(tableau, NewtonMatrix(jacobian), tolerances, patience)
