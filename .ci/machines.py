@@ -5,7 +5,8 @@
     python .ci/machines.py AVX2 -- -k tanks     arguments for pytest
 
 Fails where a test does. Bars that are closer than a fifth to what is measured, and numbers of pages that are not
-printed as they are shown, are listed.
+printed as they are shown, are listed. What a variation has measured is kept in out/machines/ for the commit that is
+checked out: a run that was interrupted goes on with what is missing.
 """
 
 import json
@@ -25,6 +26,7 @@ SHORT = ("tests/training", "tests/test_docs.py", "tests/test_notebooks.py")
 LONG = ("tests/examples",)
 SEEDS = {f"seed-{seed}": (seed, "") for seed in range(1, 6)}
 ISAS = {isa: (1, f"--xla_cpu_max_isa={isa}") for isa in ("AVX2", "SSE4_2")}
+FINISHED = (0, 1, 5)  # all passed, some failed, none chosen
 SWAPPED = "swapped"  # the programs that are optimized elsewhere are not, and the others are
 VARIATIONS = {**SEEDS, **ISAS, SWAPPED: (1, "")}
 
@@ -35,6 +37,10 @@ def run(name: str, arguments: list[str], folder: Path) -> list[dict[str, list]]:
     found = []
     for files, quick in ((SHORT, name != SWAPPED), (LONG, name == SWAPPED)):
         target = folder / f"{name}-{len(found)}.json"
+        if target.exists():
+            print(f"== {name}: {' '.join(files)}, from {target.relative_to(ROOT)}", flush=True)
+            found.append(json.loads(target.read_text(encoding="utf-8")))
+            continue
         command = [
             *(sys.executable, "-m", "pytest", "-n", "auto", "--dist", "loadfile"),
             *("-m", "slow or not slow", "-p", "tests.support.machines"),
@@ -44,14 +50,24 @@ def run(name: str, arguments: list[str], folder: Path) -> list[dict[str, list]]:
         environment = {
             **os.environ,
             "XLA_FLAGS": f"{QUICK if quick else ''} {flags}".strip(),
-            "PYTHONPYCACHEPREFIX": str(
-                folder / "compiled"
-            ),  # assertions that tell what they compare
+            # Assertions that say what they compare are compiled for themselves.
+            "PYTHONPYCACHEPREFIX": str(folder / "compiled"),
         }
         print(f"== {name}: {' '.join(files)}", flush=True)
-        subprocess.run(command, cwd=ROOT, env=environment, check=False)
+        code = subprocess.run(command, cwd=ROOT, env=environment, check=False).returncode
+        if code not in FINISHED:
+            target.unlink(missing_ok=True)
+            raise SystemExit(code)
         found.append(json.loads(target.read_text(encoding="utf-8")))
     return found
+
+
+def kept(arguments: list[str]) -> Path | None:
+    """The folder of what this commit has measured; None for a changed tree and for a part of the tests."""
+    command = ("git", "describe", "--always", "--dirty", "--exclude=*")
+    commit = subprocess.run(command, cwd=ROOT, capture_output=True, text=True).stdout.strip()
+    changed = not commit or commit.endswith("-dirty")
+    return None if changed or arguments else ROOT / "out" / "machines" / commit
 
 
 def table(found: dict[str, list[dict[str, list]]]) -> list[str]:
@@ -80,8 +96,10 @@ def main(words: list[str]) -> int:
     if unknown := set(names) - {*VARIATIONS}:
         print(f"No variation {', '.join(unknown)}: there are {', '.join(VARIATIONS)}.")
         return 2
-    with tempfile.TemporaryDirectory() as folder:
-        found = {name: run(name, arguments, Path(folder)) for name in names}
+    with tempfile.TemporaryDirectory() as passing:
+        folder = kept(arguments) or Path(passing)
+        folder.mkdir(parents=True, exist_ok=True)
+        found = {name: run(name, arguments, folder) for name in names}
     print("\n".join(table(found)))
     failed = [f"{n}: {test}" for n, parts in found.items() for p in parts for test in p["failed"]]
     digits = {
