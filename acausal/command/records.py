@@ -3,22 +3,10 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from pathlib import Path
 from typing import Any
 
 import acausal as ac
 from acausal.errors import shown
-
-READERS = {
-    ".csv": "from_csv",
-    ".txt": "from_csv",
-    ".tsv": "from_csv",
-    ".parquet": "from_parquet",
-    ".mat": "from_mat",
-    ".mdf": "from_mdf",
-    ".mf4": "from_mdf",
-}
-"""Endings of files, and the way to read them."""
 
 
 def add_reading(parser: ArgumentParser) -> None:
@@ -51,24 +39,13 @@ def read_records(paths: list[str], args: Namespace) -> ac.Data | dict[str, ac.Da
     Raises:
         ac.DataError: for a file that cannot be read, or whose ending is not known.
     """
-    endings = {Path(path).suffix.lower() for path in paths}
-    unknown = sorted(endings - set(READERS))
-    if unknown:
-        raise ac.DataError(
-            f"'{unknown[0]}' is no known ending of a file of data; give {', '.join(READERS)}."
-        )
-    if len(names := {READERS[ending] for ending in endings}) > 1:
-        raise ac.DataError("The files of data are of several kinds; give those of one kind.")
-    (name,) = names
     options: dict[str, Any] = {"missing": args.missing}
     options |= {"columns": args.columns} if args.columns else {}
     options |= {"group": args.group} if args.group else {}
     options |= {"rename": dict(args.rename)} if args.rename else {}
     if args.time is not None:
-        if name == "from_mdf":
-            raise ac.DataError("An MDF file has times for each signal; leave out --time.")
         options["time"] = args.time
-    return getattr(ac.Data, name)(paths[0] if len(paths) == 1 else paths, **options)
+    return ac.Data.from_files(paths[0] if len(paths) == 1 else paths, **options)
 
 
 def read_record(path: str, args: Namespace) -> ac.Data:

@@ -33,6 +33,7 @@ from acausal.data.signal import (
     Signal as Signal,
     differentiate as differentiate,
 )
+from acausal.data.stream import Stream as Stream
 from acausal.data.tensors import (
     filled_like as filled_like,
     named_arrays as named_arrays,

@@ -12,13 +12,25 @@ from acausal.data import readers
 from acausal.data.by_signal import Choices
 from acausal.data.given_columns import Missing
 from acausal.data.readers import Selection, SignalTable
-from acausal.errors import DataError, nearest
+from acausal.data.stream import Stream
+from acausal.errors import DataError, nearest, shown
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 Paths: TypeAlias = str | Path | Sequence[str | Path]
 """One file, a pattern such as ``"runs/*.csv"``, or a list of files."""
+
+READERS = {
+    ".csv": "from_csv",
+    ".txt": "from_csv",
+    ".tsv": "from_csv",
+    ".parquet": "from_parquet",
+    ".mat": "from_mat",
+    ".mdf": "from_mdf",
+    ".mf4": "from_mdf",
+}
+"""Endings of files, and the method that reads them."""
 
 
 class CsvOptions(TypedDict, total=False):
@@ -56,6 +68,11 @@ class Formats(ABC):
     time: Any
     signals: Any
     units: Mapping[str, str] | None
+
+    @classmethod
+    @abstractmethod
+    def of(cls, record: Any) -> Self:
+        """A record of what can be one."""
 
     @classmethod
     @abstractmethod
@@ -155,6 +172,65 @@ class Formats(ABC):
         return cls._of_files("from_mdf", path, readers.read_mdf, options)
 
     @classmethod
+    def from_files(cls, path: Paths, **options: Any) -> Any:
+        """Read files by the method for their ending, such as `from_csv` for ``.csv``.
+
+        Arguments:
+            path: one or many files of one kind, see `Formats`.
+            options: of that method.
+
+        Raises:
+            DataError: for an ending that is not known, files of several kinds, and as that method does.
+        """
+        return getattr(cls, _reader(readers.files(path, "from_files")))(path, **options)
+
+    @classmethod
+    def stream(cls, given: Paths | Mapping[str, Any], **options: Any) -> Stream:
+        """Describe records that do not fit in memory; each is read when a training of sequences needs it.
+
+        Arguments:
+            given: files as of `from_files`; or by name an `xarray.Dataset`, which may be opened lazily from Zarr or be
+                computed by Dask, or a function without arguments that returns a record.
+            options: of the method that reads them, such as `from_csv` or `from_xarray`; none for functions.
+
+        Returns:
+            A `Stream`; ``stream["run 7"]`` reads one record.
+
+        Raises:
+            DataError: if there are no files, or they are of several kinds.
+        """
+        if isinstance(given, Mapping):
+            return Stream({name: cls._source(one, options) for name, one in given.items()})
+        found = readers.files(given, "stream")
+        found = {found.stem: found} if isinstance(found, Path) else found
+        _reader(found)
+        read = {n: partial(cls.from_files, path, **options) for n, path in found.items()}
+        return Stream({n: partial(cls._one, n, function) for n, function in read.items()})
+
+    @classmethod
+    def _source(cls, given: Any, options: Mapping[str, Any]) -> Callable[[], Any]:
+        if not callable(given):
+            return partial(cls.from_xarray, given, **options)
+        if options:
+            raise DataError(
+                f"stream: {next(iter(options))}= is for files and data sets; leave it out for functions."
+            )
+        return partial(cls._called, given)
+
+    @classmethod
+    def _called(cls, function: Callable[[], Any]) -> Self:
+        return cls.of(function())
+
+    @classmethod
+    def _one(cls, name: str, read: Callable[[], Any]) -> Self:
+        record = read()
+        if not isinstance(record, cls):
+            raise DataError(
+                f"stream: the file of '{name}' has several records; leave out group=, or write a file for each."
+            )
+        return record
+
+    @classmethod
     def from_dataframe(
         cls,
         frame: DataFrame,
@@ -242,6 +318,20 @@ class Formats(ABC):
         if isinstance(tables, dict):
             return {run: cls._of_table(table, options) for run, table in tables.items()}
         return cls._of_table(tables, options)
+
+
+def _reader(found: Path | Mapping[str, Path]) -> str:
+    """The method that reads some files."""
+    paths = [found] if isinstance(found, Path) else list(found.values())
+    endings = {path.suffix.lower(): path for path in paths}
+    for ending, path in endings.items():
+        if ending not in READERS:
+            raise DataError(
+                f"{shown(str(path))}: '{ending}' is no known ending of a file of data; give {', '.join(READERS)}."
+            )
+    if len(names := {READERS[ending] for ending in endings}) > 1:
+        raise DataError("The files of data are of several kinds; give those of one kind.")
+    return names.pop()
 
 
 def _split(

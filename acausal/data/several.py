@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 from acausal.data.readers import is_data_frame
 from acausal.data.record import Data
+from acausal.data.stream import Stream
 from acausal.errors import DataError, shown
 
 if TYPE_CHECKING:
@@ -33,6 +34,11 @@ def records_of(given: Record | Sequence[Record] | Mapping[str, Record]) -> dict[
         DataError: for anything else, for an empty collection, for a name that is not text or an empty one, and for
             a record that `Data.of` refuses, with its name.
     """
+    if isinstance(given, Stream):
+        raise DataError(
+            "A stream is for ac.fit(..., strategy='sequences'), and here records are needed in memory: give some, such "
+            "as [stream['run 7']], or dict(stream) to read all."
+        )
     if _is_one_record(given):
         return {ONE: Data.of(given)}
     if isinstance(given, list | tuple):

@@ -28,7 +28,7 @@ from acausal.simulation import (
     solver_named,
 )
 from acausal.training.objective.initial_state import by_record, first_states
-from acausal.training.objective.lay_out import check_step, lay_out
+from acausal.training.objective.lay_out import check_step, lay_out, sample_time
 from acausal.training.objective.losses import named
 from acausal.training.objective.modifiers import modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates, shooting_states
@@ -42,6 +42,7 @@ from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
 from acausal.training.objective.start_prior import start_prior
 from acausal.training.objective.start_sizes import with_sizes
+from acausal.training.objective.streamed import Streamed
 from acausal.training.objective.timing import timing
 from acausal.training.objective.weighting import Weighting, weighting
 from acausal.training.options import FitOptions
@@ -63,6 +64,7 @@ def build_problem(
     targets: tuple[str, ...],
     params: dict[str, Any],
     options: FitOptions,
+    streamed: Streamed | None = None,
 ) -> Problem:
     """The problem of a training.
 
@@ -72,6 +74,7 @@ def build_problem(
         targets: names of the variables to fit.
         params: all parameters where training starts.
         options: how to train.
+        streamed: where these are only the beginnings of the records, all of them.
 
     Raises:
         DataError: if the data are not sufficient for the training.
@@ -97,12 +100,20 @@ def build_problem(
         if len(record) < 2:
             raise DataError(f"{where} has fewer than two samples.")
         check_resolution(record.time, dtype, where)
-    check_step(data, options.dt)
+    even = sample_time(data.values()) if streamed is None else streamed.even
+    check_step(even, options.dt)
     shooting = "fit" in by_record(data, options.x0)
     own_states = system.states[: system.reduced.n_independent]
     solver = _solver(options, dtype)
     records, substeps = lay_out(
-        system, data, targets, options.dt, solver, times, differentiated=options.automatic
+        system,
+        data,
+        targets,
+        options.dt,
+        solver,
+        times,
+        differentiated=options.automatic,
+        even=even,
     )
     records = _with_guesses(system, records, params)
     for record in data.values():
@@ -110,15 +121,13 @@ def build_problem(
     loss = named(options.loss, targets)
     weights = weighting(options.record_weights, options.sample_weights, tuple(data), targets, loss)
     records = _weighted(records, weights, targets)
-    sequences = cut(
-        records,
-        np.ones(records.count),
-        options.sequence_length,
-        options.batch_size,
-        options.subsample,
-        tiled=shooting,
-        lacking=[n for n in own_states if any(n not in d.signals for d in data.values())],
-    )
+    how = options.sequence_length, options.batch_size, options.subsample
+    lacking = [n for n in own_states if any(n not in d.signals for d in data.values())]
+    if streamed is None:
+        sequences = cut(records, np.ones(records.count), *how, tiled=shooting, lacking=lacking)
+    else:
+        records = replace(records, sigma=jnp.asarray(streamed.sigma))
+        sequences = streamed.cut(*how, lacking)
     problem = Problem(
         system=system,
         params={
@@ -144,6 +153,7 @@ def build_problem(
         substeps=substeps,
         dtype=dtype,
         mesh=device_mesh(options.devices, sequences.batch_size),
+        streamed=streamed,
     )
     problem.check_rest()
     _refuse_constant(problem)

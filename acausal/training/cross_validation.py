@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 import numpy as np
 
-from acausal.data import RecordsLike
+from acausal.data import RecordsLike, records_of
 from acausal.errors import TrainingError, need_compiled
 from acausal.files import need_path
 from acausal.pages import write_page
@@ -273,7 +273,9 @@ def cross_validate(
     for name, reason in REFUSED.items():
         if getattr(fit_options, name) is not None:
             raise TrainingError(f"cross_validate has no {name}=: {reason}; leave it out.")
-    training = prepare(system, data, targets, fit_options, seeds=(seed,), params=(params,))
+    training = prepare(
+        system, records_of(data), targets, fit_options, seeds=(seed,), params=(params,)
+    )
     parts = left_out(training.problem.records, folds)
     trained: Sequence[tuple[Trained, ...] | None] = [None] * len(parts)
     if fit_options.executor is not None:

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal.data import Data, RecordsLike
+from acausal.data import Data, RecordsLike, Stream
 from acausal.errors import DataError, TrainingError, need_compiled, need_whole, shown
 from acausal.files import need_path
 from acausal.networks import law_at
@@ -151,7 +151,7 @@ class Ensemble:
 @documented
 def ensemble(
     system: System,
-    data: RecordsLike,
+    data: RecordsLike | Stream,
     targets: str | Sequence[str],
     *,
     members: int = 5,

@@ -32,7 +32,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Segment, Stage
 
-DERIVED = ("context", "shooting", "weighting", "mesh", "first_states", "start_prior")
+DERIVED = ("context", "shooting", "weighting", "mesh", "first_states", "start_prior", "streamed")
 """Fields of a problem that follow from the others, or only choose the devices."""
 
 ARGUMENTS = {
@@ -71,6 +71,7 @@ def fingerprint(
         "data": (
             problem.records.unweighted(),
             {n: dict(d.signals) for n, d in data.items()},
+            problem.streamed,
         ),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
         "x0": (problem.first_states, problem.start_prior, problem.shooting is None),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
-from acausal.data import RecordsLike
+from acausal.data import RecordsLike, Stream
 from acausal.errors import need_compiled
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.preparation import prepare
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 @documented
 def fit(
     system: System,
-    data: RecordsLike,
+    data: RecordsLike | Stream,
     targets: str | Sequence[str],
     *,
     params: Mapping[str, Any] | None = None,
@@ -35,7 +35,8 @@ def fit(
     Arguments:
         system: a compiled model.
         data: a record with all inputs and targets of the model, and its states where sequences start from them; or
-            several records, as a list or by name. They may differ in length and sample times, and miss samples.
+            several records, as a list or by name. They may differ in length and sample times, and miss samples. A
+            stream (`acausal.Data.stream`) is trained by sequences.
         targets: the variables to fit, measured in the data.
         params: where to start: those of the model's parameters that differ from what `system.parameters` gives for
             ``seed``, from which networks are made, or what a ``prior`` ends with.

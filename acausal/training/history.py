@@ -215,7 +215,7 @@ class TrainingLog:
         new = [
             Divergence(
                 self.epochs + i,
-                float(self._places.times[first[i]]),
+                self._places.time(first[i]),
                 int(diverged[i]),
                 bool(rejected[i]),
                 int(exploded[i]),

@@ -96,9 +96,7 @@ class Member:
 
     def __init__(self, problem: Problem, held: HeldOut | None, key: PRNGKeyArray) -> None:
         self.problem, self.held, self.key = problem, held, key
-        self.log = TrainingLog(
-            problem.records.places, tuple(problem.regularizers), problem.modifiers.names
-        )
+        self.log = TrainingLog(problem.places, tuple(problem.regularizers), problem.modifiers.names)
 
     def evaluate(self, candidates: Sequence[Trainable]) -> None:
         """Evaluate some trainables, log the best of them, and keep it if it is better than the best so far."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from acausal._jax import need_double_precision, need_known
-from acausal.data import Data, RecordsLike, records_of
+from acausal.data import Data, RecordsLike, Stream, records_of
 from acausal.errors import DataError, TrainingError, need_whole, shown
 from acausal.modeling import names_in
 from acausal.training.auto.automatic import Automatic, automatic
@@ -20,6 +20,7 @@ from acausal.training.objective.prior import entry
 from acausal.training.objective.problem import Problem
 from acausal.training.options import FitOptions
 from acausal.training.strategy import Segment, segments, stages
+from acausal.training.streaming import look_at
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -65,7 +66,7 @@ class Training:
 
 def prepare(
     system: System,
-    data: RecordsLike,
+    data: RecordsLike | Stream,
     targets: str | Sequence[str],
     options: FitOptions,
     *,
@@ -96,13 +97,16 @@ def prepare(
         for seed, given in zip(seeds, params, strict=True)
     ]
     system = system.watching(_trained_numbers(options))
-    given = records_of(data)
+    given = data if isinstance(data, Stream) else records_of(data)
     arguments: dict[str, Any] = {
         "system": system, "data": given, "targets": targets, "options": options, "seeds": seeds, "params": params
     }  # fmt: skip
-    records = {n: record.for_system(system) for n, record in given.items()}
+    names, streamed = names_in(targets, "targets"), None
+    if isinstance(given, Stream):
+        records, options, streamed = look_at(system, given, names, options, len(seeds))
+    else:
+        records = {n: record.for_system(system) for n, record in given.items()}
     kept = split(records, options.validation)
-    names = names_in(targets, "targets")
     check_records(options.x0, (*records, *(kept.held or {})))
     from_data = None
     if options.automatic:
@@ -110,7 +114,7 @@ def prepare(
             warnings.simplefilter("ignore")
             from_data = automatic(system, kept.training, names, starts, options)
         options, starts = from_data.options, list(from_data.params)
-    problem = build_problem(system, kept.training, names, dict(starts[0]), options)
+    problem = build_problem(system, kept.training, names, dict(starts[0]), options, streamed)
     held = hold_out(problem, kept, options.x0)
     planned = stages(options) if from_data is None else from_data.stages
     plan = segments(problem, planned, options)

@@ -103,6 +103,17 @@ class TrainedModel:
     @property
     def samples_trained(self) -> int:
         """How many samples the training's records have."""
+        streamed = self.problem.streamed
+        return self._samples_in_memory if streamed is None else int(streamed.rows.sum())
+
+    @property
+    def evaluated(self) -> str:
+        """What of a stream is in memory, over which losses and errors are; empty where all is."""
+        some, every = self._samples_in_memory, self.samples_trained
+        return f"the first {some} of {every} samples" if some < every else ""
+
+    @property
+    def _samples_in_memory(self) -> int:
         return sum(len(record.time) for record in self.records.values())
 
     def _only(self, what: str) -> RecordFit:

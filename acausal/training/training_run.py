@@ -5,7 +5,8 @@ from __future__ import annotations
 import itertools
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from contextlib import closing
 from statistics import fmean as mean
 
 import jax
@@ -31,6 +32,7 @@ from acausal.training.optimizers.trainer import (
     epochs_of,
 )
 from acausal.training.progress import Observer, Progress
+from acausal.training.read_ahead import Ready, read_ahead
 from acausal.training.rejections import check_rejections
 from acausal.training.starts import Halving
 from acausal.training.strategy import Segment
@@ -173,15 +175,22 @@ class TrainingRun:
     def follow(self, i: int, state: State) -> None:
         """Do the remaining updates of a segment."""
         segment, self.last = self.segments[i], i
-        objective = replicate(segment.objective, self.mesh)
         self._choose(i)
         self._keep(i, state)
+        objective = replicate(segment.objective, self.mesh)
+        done = self.done - self.before
+        with closing(read_ahead(objective, state.key, done, segment.epochs)) as ahead:
+            self._update(i, state, ahead)
+
+    def _update(self, i: int, state: State, ahead: Generator[Ready]) -> None:
+        segment, ready = self.segments[i], Ready(self.segments[i].objective, 0)
         if self.done - self.before < segment.epochs:
+            ready = next(ahead)
             clock = time.perf_counter()
             # This compiles, and makes no update.
             until = jnp.max(state.epoch)
             jax.block_until_ready(
-                advance(objective, segment.trainer, state, until, active=self._active())
+                advance(ready.problem, segment.trainer, state, until, active=self._active())
             )
             self.compiling += time.perf_counter() - clock
         size = 1
@@ -190,12 +199,13 @@ class TrainingRun:
         ):
             due = min((done // segment.evaluate_every + 1) * segment.evaluate_every, segment.epochs)
             due = min(due, done + self.halving.until_next(self.planned[i] + done))
-            count = min(size, int(due) - done, UPDATES_PER_CALL)
+            ready = ready if done < ready.until else next(ahead)
+            count = min(size, int(min(due, ready.until)) - done, UPDATES_PER_CALL)
             clock = time.perf_counter()
             until = replicate(jnp.asarray(done + count, int), self.mesh)
             before = state
             state, entries = jax.block_until_ready(
-                advance(objective, segment.trainer, state, until, active=self._active())
+                advance(ready.problem, segment.trainer, state, until, active=self._active())
             )
             ended = time.perf_counter()
             count = max(epochs_of(state)) - done

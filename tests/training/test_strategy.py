@@ -96,7 +96,7 @@ class Valley(eqx.Module):
     edge: float
     value: bool
 
-    def draw(self, key: Any) -> Batch:
+    def draw(self, key: Any, update: Any) -> Batch:
         return Batch(jnp.zeros(1, int), jnp.ones(1), None)
 
     def losses(self, x: Any, batch: Batch) -> Any:

@@ -37,7 +37,7 @@ class EquationError(Problem):
     rows: Int[Array, " n_rows"]
     x: Float[Array, "n_rows n_states"]
 
-    def draw(self, key: PRNGKeyArray) -> Batch:
+    def draw(self, key: PRNGKeyArray, update: int | Int[Array, ""] = 0) -> Batch:
         """All samples, whatever the key."""
         return Batch(jnp.zeros(1, int), jnp.ones(1), None)
 

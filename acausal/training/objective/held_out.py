@@ -17,7 +17,7 @@ from acausal._jax import is_number
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, listing, nearest, shown, user_level
 from acausal.training.objective.initial_state import InitialState, first_states
-from acausal.training.objective.lay_out import lay_out
+from acausal.training.objective.lay_out import lay_out, sample_time
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sequences import whole_records
 from acausal.training.objective.trainable import Trainable
@@ -61,12 +61,7 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
         return Split(data, None, {})
     if isinstance(validation, float | int | Real):
         return _shared(data, validation)
-    if isinstance(validation, str) or _are_names(validation):
-        names = (
-            [validation] if isinstance(validation, str) else list(cast(Sequence[str], validation))
-        )
-        if not names:
-            raise DataError("validation=[] names nothing to hold out: leave it out, or name some.")
+    if names := named_records(validation):
         for name in names:
             if name not in data:
                 raise DataError(f"validation: there is no record '{name}': {nearest(name, data)}")
@@ -93,8 +88,19 @@ def _are_alike(one: Data, other: Data) -> bool:
     )
 
 
-def _are_names(validation: Any) -> bool:
-    return isinstance(validation, list | tuple) and all(isinstance(n, str) for n in validation)
+def named_records(validation: Validation) -> tuple[str, ...]:
+    """The records to hold out that are chosen by name.
+
+    Raises:
+        DataError: for an empty list.
+    """
+    if isinstance(validation, str):
+        return (validation,)
+    if not isinstance(validation, list | tuple) or not all(isinstance(n, str) for n in validation):
+        return ()
+    if not validation:
+        raise DataError("validation=[] names nothing to hold out: leave it out, or name some.")
+    return tuple(cast(Sequence[str], validation))
 
 
 def _shared(data: dict[str, Data], share: Any) -> Split:
@@ -175,6 +181,7 @@ def over(
         problem.timing,
         states=False,
         measured=measured,
+        even=sample_time(data.values()),
     )
     records = problem.weighting.apply(records)
     other = replace(

@@ -58,6 +58,7 @@ def lay_out(
     states: bool = True,
     measured: bool = True,
     differentiated: bool = False,
+    even: float | None,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
 
@@ -72,12 +73,12 @@ def lay_out(
         states: whether measured states are laid out, too.
         measured: whether the data need samples of every target.
         differentiated: whether a speed that no record has is the rate of a position.
+        even: the sample time that all have in common, as of `sample_time`.
 
     Raises:
         DataError: for a signal that is missing.
         TrainingError: if an input's delay cannot be trained.
     """
-    even = sample_time(data.values())
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
     present = {n for d in data.values() for n in d.signals}
@@ -211,7 +212,11 @@ def sample_time(data: Iterable[Data]) -> float | None:
     records = list(data)
     if not all(d.uniform for d in records):
         return None
-    times = np.array([d.sample_time for d in records])
+    return common(np.array([d.sample_time for d in records]))
+
+
+def common(times: Float[np.ndarray, " R"]) -> float | None:
+    """The number that all of some times are, if they are alike."""
     return float(times[0]) if np.ptp(times) <= ALIKE * times[0] else None
 
 
@@ -220,8 +225,8 @@ def parts(step: float, longest: float) -> int:
     return max(1, int(np.ceil(step / longest - ALIKE)))
 
 
-def check_step(data: Mapping[str, Data], dt: float | None) -> None:
-    """Check a user's step of the integration.
+def check_step(even: float | None, dt: float | None) -> None:
+    """Check a user's step of the integration, where samples have a time in common.
 
     Raises:
         TrainingError: for what is not a step, or does not divide evenly spaced samples.
@@ -230,7 +235,6 @@ def check_step(data: Mapping[str, Data], dt: float | None) -> None:
         return
     if not (is_number(dt) and dt > 0):
         raise TrainingError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")
-    even = sample_time(data.values())
     if even is None:
         return
     n = max(1, round(even / dt))

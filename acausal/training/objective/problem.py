@@ -20,10 +20,12 @@ from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.parameter_spread import ParameterSpread
 from acausal.training.objective.prior import Prior
+from acausal.training.objective.records import Places, Window
 from acausal.training.objective.regularizers import Context, Regularizer
 from acausal.training.objective.sequences import Batch, Sequences
 from acausal.training.objective.sharding import shard
 from acausal.training.objective.simulator import PackedRecords, Simulator
+from acausal.training.objective.streamed import Streamed
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.objective.weighting import Weighting
 
@@ -43,6 +45,7 @@ class Problem(Simulator):
         regularizers: penalties by name.
         context: the arguments of regularizers besides the parameters.
         mesh: devices that share batches, if any.
+        streamed: records of which only the beginnings are in memory, if that is so.
     """
 
     params: dict[str, Any]
@@ -56,8 +59,14 @@ class Problem(Simulator):
     regularizers: dict[str, Regularizer]
     context: Context
     mesh: Mesh | None = eqx.field(static=True)
+    streamed: Streamed | None = eqx.field(static=True)
 
     # -- the data ------------------------------------------------------------------------------------
+
+    @property
+    def places(self) -> Places:
+        """Where rows are that sequences start from."""
+        return self.records.places if self.streamed is None else self.streamed.places
 
     def residuals(self, predicted: Float[Array, "N n_targets"]) -> Float[Array, "N n_targets"]:
         """The residuals of predictions of all records: measured less predicted; zero where nothing is measured."""
@@ -165,7 +174,8 @@ class Problem(Simulator):
 
     def log_prior(self, trainable: Trainable) -> Float[Array, ""]:
         """Minus the logarithm of the prior density of what is trained, for each measured sample."""
-        samples = jnp.sum(self.records.weight > 0)
+        streamed = self.streamed
+        samples = jnp.sum(self.records.weight > 0) if streamed is None else streamed.samples
         known = self.per_record.log_prior(trainable.per_record)
         if self.start_prior is not None:
             known += self.start_prior.log_prior(trainable.starts)
@@ -175,9 +185,9 @@ class Problem(Simulator):
 
     # -- losses of sequences -------------------------------------------------------------------------
 
-    def draw(self, key: PRNGKeyArray) -> Batch:
-        """A random batch of sequences."""
-        batch = self.sequences.draw(key)
+    def draw(self, key: PRNGKeyArray, update: int | Int[Array, ""] = 0) -> Batch:
+        """A random batch of sequences, see `Sequences.draw`."""
+        batch = self.sequences.draw(key, update)
         return batch.nudged(jnp.zeros((len(batch.start), len(self.system.states))))
 
     def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " batch"]:
@@ -188,9 +198,8 @@ class Problem(Simulator):
             arrays, trainable = same
             return eqx.combine(arrays, rest)._losses(trainable, *rows)
 
-        return shard(
-            share, self.mesh, (arrays, trainable), (batch.start, batch.points, batch.nudge)
-        )
+        rows = (batch.start, batch.points, batch.nudge, batch.read)
+        return shard(share, self.mesh, (arrays, trainable), rows)
 
     def _losses(
         self,
@@ -198,10 +207,11 @@ class Problem(Simulator):
         starts: Int[Array, " batch"],
         points: Int[Array, "batch n_points"] | None,
         nudges: Float[Array, "batch n_states"] | None,
+        read: Window | None,
     ) -> Float[Array, " batch"]:
         params = self.assemble(trainable)
         return self.parameter_spread.mean(
-            lambda p: self._losses_with(p, trainable, starts, points, nudges), params
+            lambda p: self._losses_with(p, trainable, starts, points, nudges, read), params
         )
 
     def _losses_with(
@@ -211,6 +221,7 @@ class Problem(Simulator):
         starts: Int[Array, " batch"],
         points: Int[Array, "batch n_points"] | None,
         nudges: Float[Array, "batch n_states"] | None,
+        read: Window | None,
     ) -> Float[Array, " batch"]:
         packed = self.pack(params, trainable)
         if self.sequences.whole:
@@ -223,16 +234,17 @@ class Problem(Simulator):
             start: Int[Array, ""],
             points: Int[Array, " n_points"] | None,
             nudge: Float[Array, " n_states"] | None,
+            read: Window | None,
         ) -> Float[Array, ""]:
-            window = records.window(start, self.sequences.length)
+            window = records.window(start, self.sequences.length) if read is None else read
             if shooting is None or parts is None:
-                assert records.x is not None
-                x0 = records.x[start]
+                assert window.x is not None
+                x0 = window.x
             else:
                 x0 = parts[shooting.part(start)]
             x0 = x0 if nudge is None else x0 + nudge
-            own = self.packed_of(packed, records.of[start])
-            steps = records.delayed(window.steps, records.of[start], packed.times)
+            own = self.packed_of(packed, window.of)
+            steps = records.delayed(window.steps, window.of, packed.times)
             found = self.integrate_from(own, x0, steps)
             assert found.y is not None
             seen, weight = sensors.over_window(found.y, window, records, start, packed.times)
@@ -245,9 +257,9 @@ class Problem(Simulator):
             return loss + shooting.gap(parts, shooting.part(start), found.end)
 
         if starts.shape[0] == 1:
-            first = jax.tree.map(lambda a: a[0], (starts, points, nudges))
+            first = jax.tree.map(lambda a: a[0], (starts, points, nudges, read))
             return one(*first)[None]
-        return jax.vmap(one)(starts, points, nudges)
+        return jax.vmap(one)(starts, points, nudges, read)
 
     def _loss_of_all(
         self,

@@ -17,6 +17,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from acausal._jax import numpy_or_jax
 from acausal.simulation import Steps
 from acausal.training.objective.input_delays import NOTHING_DELAYED, DelayedInputs
 
@@ -25,18 +26,29 @@ class Places(NamedTuple):
     """Where the rows of records are.
 
     Attributes:
-        times: of every row.
-        of: the record of every row.
+        times: of every row, or of those in ``rows``.
+        of: the record of each of them.
         names: of the records.
+        rows: some rows, among them the first and the last of every record; ``None`` for all.
     """
 
     times: Float[np.ndarray, " N"]
     of: Int[np.ndarray, " N"]
     names: tuple[str, ...]
+    rows: Int[np.ndarray, " N"] | None = None
+
+    def time(self, row: int) -> float:
+        """The time of a row, between known ones by interpolation."""
+        return float(
+            self.times[row] if self.rows is None else np.interp(row, self.rows, self.times)
+        )
 
     def record(self, row: int) -> str | None:
         """The record of a row; ``None`` where there is only one."""
-        return self.names[self.of[row]] if len(self.names) > 1 else None
+        if len(self.names) == 1:
+            return None
+        known = row if self.rows is None else np.searchsorted(self.rows, row, side="right") - 1
+        return self.names[self.of[known]]
 
 
 class Window(eqx.Module):
@@ -46,11 +58,15 @@ class Window(eqx.Module):
         steps: with the inputs.
         y: targets.
         weight: how much each of them counts.
+        x: the measured state at the first row; ``None`` where no record has one.
+        of: the record.
     """
 
     steps: Steps
     y: Float[Array, "length n_targets"]
     weight: Float[Array, "length n_targets"]
+    x: Float[Array, " n_states"] | None
+    of: Int[Array, ""]
 
 
 class Records(eqx.Module):
@@ -116,22 +132,27 @@ class Records(eqx.Module):
         """The same where all measured samples count alike."""
         return replace(self, weight=jnp.where(self.weight > 0, 1.0, 0.0))
 
-    def window(self, start: Int[Array, ""], length: int) -> Window:
-        """The ``length`` rows from ``start`` on; beyond the record's end its last row is repeated, with no weight."""
-        if self.count == 1:
+    def window(self, start: Int[Array | np.ndarray, "*n"], length: int) -> Window:
+        """The ``length`` rows from ``start`` on; beyond the record's end its last row is repeated, with no weight.
+
+        Several starts give windows with a leading axis, but for what is the same at every row.
+        """
+        xp = numpy_or_jax(start, self.y)
+        x, of = None if self.x is None else self.x[start], self.of[start]
+        if self.count == 1 and start.ndim == 0:
 
             def cut(a: Array) -> Array:
                 return lax.dynamic_slice_in_dim(a, start, length) if a.ndim else a
 
-            return Window(jax.tree.map(cut, self.steps), cut(self.y), cut(self.weight))
-        rows = start + jnp.arange(length)
-        last = self.last[self.of[start]]
-        inside = (rows <= last)[:, None]
-        rows = jnp.minimum(rows, last)
+            return Window(jax.tree.map(cut, self.steps), cut(self.y), cut(self.weight), x, of)
+        rows = start[..., None] + xp.arange(length)
+        last = self.last[of][..., None]
+        inside = (rows <= last)[..., None]
+        rows = xp.minimum(rows, last)
         steps, y, weight = jax.tree.map(
             lambda a: a[rows] if a.ndim else a, (self.steps, self.y, self.weight)
         )
-        return Window(steps, y, jnp.where(inside, weight, 0.0))
+        return Window(steps, y, xp.where(inside, weight, 0.0), x, of)
 
     def beginnings(self, rows: int) -> Records:
         """The same with so many rows of each record at most, the first ones."""

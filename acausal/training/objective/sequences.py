@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import equinox as eqx
 import jax
@@ -14,7 +14,7 @@ from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray
 
 from acausal._jax import compiled
 from acausal.errors import DataError, listing
-from acausal.training.objective.records import Records
+from acausal.training.objective.records import Records, Window
 
 LEAST_WEIGHT = 1e-9
 """Weight of a sequence none of whose samples count, relative to the mean."""
@@ -33,12 +33,14 @@ class Batch(eqx.Module):
         points: which of its rows count, or ``None`` for all.
         nudge: zeros that are added to the state at each one's start: the derivatives by them show whose gradient
             explodes. ``None`` where nothing is integrated.
+        read: the sequences themselves, where the records are not in memory.
     """
 
     start: Int[Array, " batch"]
     weight: Float[Array, " batch"]
     points: Int[Array, "batch n_points"] | None
     nudge: Float[Array, "batch n_states"] | None = None
+    read: Window | None = None
 
     def nudged(self, nudge: Float[Array, "batch n_states"] | None) -> Batch:
         """The batch with other starts."""
@@ -58,6 +60,20 @@ def _column(mask: Bool[Array, " batch"], like: Array) -> Array:
     return mask.reshape(mask.shape + (1,) * (like.ndim - 1))
 
 
+class ReadSequences(eqx.Module):
+    """The sequences of some updates, which were read before these begin.
+
+    Attributes:
+        since: the first of these updates.
+        start: the first row of every sequence, among those of all records.
+        windows: the sequences.
+    """
+
+    since: Int[Array, ""]
+    start: Int[Array, "n_updates batch"]
+    windows: Window
+
+
 class Sequences(eqx.Module):
     """Draws sequences of records at random, and a random part of their points.
 
@@ -70,6 +86,7 @@ class Sequences(eqx.Module):
         whole: whether the one sequence is all of every record.
         side_by_side: whether sequences begin where others end; else they begin at any row.
         chances: running sums of the probabilities of ``starts``; ``None`` where all are alike.
+        read: what was drawn and read before, in the place of ``starts``, where the records are not in memory.
     """
 
     starts: Int[Array, " n_starts"]
@@ -80,6 +97,7 @@ class Sequences(eqx.Module):
     whole: bool = eqx.field(static=True)
     side_by_side: bool = eqx.field(static=True, default=False)
     chances: Float[Array, " n_starts"] | None = None
+    read: ReadSequences | None = None
 
     @property
     def always_alike(self) -> bool:
@@ -101,16 +119,26 @@ class Sequences(eqx.Module):
         return replace(self, starts=self.starts[chosen], weight=jnp.asarray(weight))
 
     @compiled
-    def draw(self, key: PRNGKeyArray) -> Batch:
-        """A batch; the same key gives the same batch."""
+    def draw(self, key: PRNGKeyArray, update: int | Int[Array, ""] = 0) -> Batch:
+        """A batch; the same key gives the same batch.
+
+        Arguments:
+            key: of the update.
+            update: its number, by which sequences are found that were read before.
+        """
         for_start, for_points = jax.random.split(key)
-        chosen = self._chosen(for_start)
         points = None
         if (count := self.points) is not None:
             keys = jax.random.split(for_points, self.batch_size)
             points = jax.vmap(lambda k: jax.random.choice(k, self.length, (count,), replace=False))(
                 keys
             )
+        if (read := self.read) is not None:
+            start, windows = jax.tree.map(
+                lambda a: a[update - read.since], (read.start, read.windows)
+            )
+            return Batch(start, jnp.ones(self.batch_size), points, read=windows)
+        chosen = self._chosen(for_start)
         return Batch(self.starts[chosen], self.weight[chosen], points)
 
     def weighted(self, records: Records) -> Sequences:
@@ -135,11 +163,16 @@ class Sequences(eqx.Module):
             where = jax.random.uniform(key, (self.batch_size,)) * self.chances[-1]
             return jnp.minimum(jnp.searchsorted(self.chances, where, side="right"), count - 1)
         if not self.side_by_side:
-            return jax.random.randint(key, (self.batch_size,), 0, count)
+            return any_of(count, key, self.batch_size)
         every = jnp.arange(count)
         if self.batch_size < count:
             every = jax.random.choice(key, every, (self.batch_size,), replace=False)
         return every
+
+
+def any_of(count: int, key: PRNGKeyArray, batch_size: int) -> Int[Array, " batch"]:
+    """Which of so many starts the sequences of a batch have."""
+    return jax.random.randint(key, (batch_size,), 0, count)
 
 
 def whole_records(records: Records, points: int | None = None) -> Sequences:
@@ -176,29 +209,20 @@ def cut(
         DataError: for a length, size or fraction that does not fit the records.
     """
     first, last = np.asarray(records.first), np.asarray(records.last)
-    rows = last - first + 1
-    if seconds == "auto":
-        fits = records.x is not None and not lacking and not tiled and rows.max() >= 2 * SAMPLES
-        seconds, n = (np.inf, SAMPLES) if fits else (None, int(rows.max()))
-        batch_size = (SEQUENCES if fits else 1) if batch_size is None else batch_size
-    else:
-        n = _length(records, seconds, rows)
-    batch_size = 1 if batch_size is None else batch_size
+    rows, t = last - first + 1, np.asarray(records.steps.t)
+    startable = records.x is not None and not lacking and not tiled
+    seconds, n, batch_size = sizes(rows, t[last] - t[first], startable, seconds, batch_size)
     if seconds is None and batch_size != 1:
         raise DataError(
             f"batch_size={batch_size} needs a sequence_length in seconds, shorter than the record."
         )
-    if fraction is not None and not 0 < fraction <= 1:
-        raise DataError(
-            f"subsample={fraction:g} is not a fraction of the points; give a number in (0, 1]."
-        )
     if seconds is None or (n >= rows.max() and len(rows) == 1):
-        return whole_records(records, _some(fraction, len(records)))
+        return whole_records(records, some(fraction, len(records)))
     if tiled:
         n = int(np.max(rows // np.maximum(1, np.round(rows / n).astype(int))))
         parts = np.maximum(1, np.round(rows / n)).astype(int)
         if parts.max() == 1:
-            return whole_records(records, points=_some(fraction, len(records)))
+            return whole_records(records, points=some(fraction, len(records)))
         starts = np.concatenate([f + n * np.arange(p) for f, p in zip(first, parts, strict=True)])
         batch_size = min(batch_size, len(starts))
     else:
@@ -209,13 +233,43 @@ def cut(
         jnp.asarray(weight),
         n,
         batch_size=batch_size,
-        points=_some(fraction, n),
+        points=some(fraction, n),
         whole=False,
         side_by_side=tiled,
     )
 
 
-def _length(records: Records, seconds: float | None, rows: np.ndarray) -> int:
+class Sizes(NamedTuple):
+    """Of batches: seconds and rows in a sequence, ``None`` and the longest record's for whole records; sequences."""
+
+    seconds: float | None
+    rows: int
+    batch_size: int
+
+
+def sizes(
+    rows: Int[np.ndarray, " R"],
+    spans: Float[np.ndarray, " R"],
+    startable: bool,
+    seconds: float | Literal["auto"] | None,
+    batch_size: int | None,
+) -> Sizes:
+    """The sizes of batches.
+
+    Arguments:
+        rows: of every record; ``spans``: from its first to its last time.
+        startable: whether sequences can begin at measured states.
+        seconds, batch_size: as of `cut`.
+    """
+    if seconds == "auto":
+        fits = startable and rows.max() >= 2 * SAMPLES
+        if batch_size is None:
+            batch_size = SEQUENCES if fits else 1
+        return Sizes(*((np.inf, SAMPLES) if fits else (None, int(rows.max()))), batch_size)
+    return Sizes(seconds, _length(rows, spans, seconds), 1 if batch_size is None else batch_size)
+
+
+def _length(rows: np.ndarray, spans: np.ndarray, seconds: float | None) -> int:
     """Rows in a sequence."""
     longest = int(rows.max())
     if seconds is None:
@@ -224,8 +278,6 @@ def _length(records: Records, seconds: float | None, rows: np.ndarray) -> int:
         raise DataError(
             f"sequence_length={seconds} is not a length; give seconds, or None for all."
         )
-    t = np.asarray(records.steps.t)
-    spans = t[np.asarray(records.last)] - t[np.asarray(records.first)]
     mean = float(spans.sum() / np.maximum(rows - 1, 1).sum())
     n = round(seconds / mean)
     if not 2 <= n <= longest:
@@ -236,32 +288,50 @@ def _length(records: Records, seconds: float | None, rows: np.ndarray) -> int:
     return n
 
 
-def _some(fraction: float | None, rows: int) -> int | None:
-    """A part of the rows; ``None`` for all."""
+def some(fraction: float | None, rows: int) -> int | None:
+    """A part of the rows; ``None`` for all.
+
+    Raises:
+        DataError: for what is not a fraction.
+    """
+    if fraction is not None and not 0 < fraction <= 1:
+        raise DataError(
+            f"subsample={fraction:g} is not a fraction of the points; give a number in (0, 1]."
+        )
     return None if fraction is None else max(1, round(fraction * rows))
 
 
 def _startable(records: Records, n: int, lacking: Sequence[str]) -> Int[np.ndarray, " n_starts"]:
-    """Rows with measured states from which a sequence fits into the record, or the first such row of a short one.
+    """Rows with measured states from which a sequence fits into the record, or the first such row of a short one."""
+    if records.x is None:
+        need_starts(0, lacking)
+    first, last = np.asarray(records.first), np.asarray(records.last)
+    known = np.all(np.isfinite(np.asarray(records.x)), axis=1)
+    rows = [a + startable_in(known[a : b + 1], n) for a, b in zip(first, last, strict=True)]
+    starts = np.concatenate(rows)
+    need_starts(len(starts), ())
+    return starts
+
+
+def startable_in(known: Bool[np.ndarray, " rows"], n: int) -> Int[np.ndarray, " n_starts"]:
+    """Rows of a record, where all states are known, from which n rows fit; or the first such row of a short one."""
+    rows, latest = np.flatnonzero(known), len(known) - n
+    return rows[rows <= latest] if latest >= 0 else rows[:1]
+
+
+def need_starts(count: int, lacking: Sequence[str]) -> None:
+    """Refuse records without a start for sequences.
 
     Raises:
-        DataError: if there are none.
+        DataError: if there are none; it names the states that some record lacks.
     """
-    if records.x is None:
+    if not count and lacking:
         raise DataError(
             f"The data lack {listing(lacking)}: sequences start from measured states. "
             "Let the training find where they start (x0='fit'), or train on the whole record "
             "(sequence_length=None) with x0='model' or x0={...}."
         )
-    first, last = np.asarray(records.first), np.asarray(records.last)
-    known = np.all(np.isfinite(np.asarray(records.x)), axis=1)
-    found = []
-    for a, b in zip(first, last, strict=True):
-        rows = a + np.flatnonzero(known[a : b + 1])
-        found.append(rows[rows <= b + 1 - n] if b + 1 - n >= a else rows[:1])
-    starts = np.concatenate(found)
-    if not len(starts):
+    if not count:
         raise DataError(
             "No sequence has measured states where it begins: take x0='fit', or sequence_length=None."
         )
-    return starts

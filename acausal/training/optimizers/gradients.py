@@ -9,7 +9,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax.flatten_util import ravel_pytree
-from jaxtyping import Array, Bool, Float, PRNGKeyArray, PyTree
+from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 
 from acausal._jax import value_and_jacobian
 
@@ -26,8 +26,8 @@ class Objective(Protocol):
     `predictions`, `compare` and `curvature` are of whole records, and give the Gauss-Newton Hessian.
     """
 
-    def draw(self, key: PRNGKeyArray) -> PyTree:
-        """Some sequences with weights and starts, such as `acausal.training.objective.sequences.Batch`."""
+    def draw(self, key: PRNGKeyArray, update: Int[Array, ""]) -> PyTree:
+        """Of an update, by its key and its number, some sequences with weights and starts, such as a `Batch`."""
         ...
 
     def losses(self, trainable: PyTree, batch: PyTree) -> Float[Array, " batch"]:

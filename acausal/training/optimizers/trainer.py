@@ -96,6 +96,11 @@ def begin(trainer: Trainer, trainable: PyTree, key: PRNGKeyArray) -> State:
     return State(trainable, trainer.optimizer.init(trainable), zero, zero, key)
 
 
+def update_key(key: PRNGKeyArray, epoch: int | Int[Array, ""]) -> PRNGKeyArray:
+    """The source of an update's batch."""
+    return jax.random.fold_in(key, epoch)
+
+
 def converged(state: State) -> Bool[Array, "*trainings"]:
     """Whether the optimizer has converged; for several trainings, one value each."""
     if isinstance(state.optimizer, Descent):
@@ -189,7 +194,7 @@ def advance(
 
 
 def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State, UpdateLog]:
-    drawn = objective.draw(jax.random.fold_in(state.key, state.epoch))
+    drawn = objective.draw(update_key(state.key, state.epoch), state.epoch)
     batch, found, bad, exploded = evaluate_healthy(objective, trainer, state.trainable, drawn)
     derivatives = found.gradient, found.hessian
     usable = _finite((found.total, derivatives)) & ~_diverged(found, trainer).any()

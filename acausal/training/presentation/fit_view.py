@@ -20,7 +20,7 @@ MOST_TARGETS = 4
 
 def loss_rows(fit: TrainedModel) -> list[tuple[str, float, float]]:
     """By kind of loss: what it is, before and after."""
-    rows = [("loss over the record", fit.loss_before, fit.loss)]
+    rows = [(f"loss over {fit.evaluated or 'the record'}", fit.loss_before, fit.loss)]
     if fit.validation_loss is not None:
         before = float(fit.history.validation_loss[0, 1])
         rows.append(("loss over what is held out", before, fit.validation_loss))
@@ -83,6 +83,7 @@ def fit_text(fit: TrainedModel, stages: str, verdict: Verdict | None) -> str:
     moved = {n: value for n, value in fit.modifiers.items() if n not in fit.problem.timing.values}
     found, diverged = found_starts(fit.problem), len(fit.history.divergences)
     further = {
+        "evaluated": f"over {fit.evaluated}" if fit.evaluated else "",
         "modifiers": ", ".join(f"{n} {value:+.3f}" for n, value in moved.items()),
         "starts": "" if fit.starts is None else fit.starts.summary(),
         "times": ", ".join(late),
