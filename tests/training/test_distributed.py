@@ -16,8 +16,8 @@ from tests.support.paths import ROOT
 
 @pytest.fixture(scope="module")
 def alone():
-    """The same training on one device."""
-    return weights(trained(None))
+    """The same trainings on one device: with records in memory, and read when needed."""
+    return np.stack([weights(trained(None)), weights(trained(None, streamed=True))])
 
 
 @pytest.mark.cases(slow=1)
