@@ -1,4 +1,7 @@
-"""A fleet: what an epoch takes in time and memory over the number of records, and a sweep on one core and on all."""
+"""A fleet: what an epoch takes in time and memory over the number of records, and a sweep on one core and on all.
+
+With ``--stream 4`` it is instead what a training takes on 4 GB of records that stay in their files.
+"""
 
 from __future__ import annotations
 
@@ -9,22 +12,37 @@ import multiprocessing
 import os
 import resource
 import sys
+import tempfile
 import time
 from concurrent.futures import Executor, ProcessPoolExecutor
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import psutil
 from rich.console import Console
 from rich.table import Table
+from scipy.io import savemat
 
 import acausal as ac
-from examples.fleet.model import INPUT, MASS, SPEED, SPREAD, TYPICAL, fleet, learned, truth
+from examples.fleet.model import (
+    INPUT,
+    MASS,
+    SAMPLE_TIME,
+    SPEED,
+    SPREAD,
+    TYPICAL,
+    fleet,
+    learned,
+    truth,
+)
 
 EPOCHS = 40
 DT, SECONDS = 0.01, 30.0
 """Step and length of a variant [s]; its state is kept once a second."""
 ROUNDS = 3
+STREAMED, IN_MEMORY = 1000, 20
+"""Records in files, and how many of them are made at a time."""
 
 
 def main() -> None:
@@ -32,7 +50,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Train on a fleet, and sweep over one.")
     parser.add_argument("--n", type=int, nargs="+", default=[125, 250, 500, 1000], help="records")
     parser.add_argument("--variants", type=int, default=10_000)
+    parser.add_argument("--stream", type=float, metavar="GB", help="train on so much from files")
     asked = parser.parse_args()
+    if asked.stream is not None:
+        with tempfile.TemporaryDirectory() as folder:
+            size = _alone(written, folder, asked.stream)
+            found = _alone(streamed, folder)
+        table = Table("", "", title=f"Training on {size / 1e9:.3g} GB of files")
+        for name, value in found.items():
+            table.add_row(name, f"{value:.4g}")
+        Console().print(table)
+        print(json.dumps({"bytes": size, **found}))
+        return
     records = {n: _alone(trained, n) for n in sorted(asked.n)}
     table = Table("records", "ms an epoch", "epochs [MB]", "all [MB]", title="Training")
     for n, row in records.items():
@@ -95,6 +124,42 @@ def trained(n: int) -> dict[str, float]:
         "peak_mb": _peak(),
         "loss": fit.loss,
         "masses_deviation": float(np.std(own)),
+    }
+
+
+def written(folder: str, gigabytes: float) -> int:
+    """Write the records of a thousand vehicles, a file each; returns their bytes."""
+    rows, count = round(gigabytes * 1e9 / STREAMED / 32), 0
+    for block in range(0, STREAMED, IN_MEMORY):
+        own = fleet(IN_MEMORY, seed=block, seconds=rows * SAMPLE_TIME)
+        for k, record in enumerate(own.values(), block):
+            v = record[SPEED]
+            s = SAMPLE_TIME * np.append(0.0, np.cumsum((v[1:] + v[:-1]) / 2))
+            columns = {"time": record.time, "force": record[INPUT], "v": v, "s": s}
+            path = Path(folder) / f"vehicle {k}.mat"
+            savemat(path, columns)
+            count += path.stat().st_size
+    return count
+
+
+def streamed(folder: str) -> dict[str, float]:
+    """A training on the records of a folder, each vehicle with its own mass: its time, and the memory at the peak."""
+    names = {"force": INPUT, "v": SPEED, "s": "body.s"}
+    system, stream = learned(), ac.Data.stream(f"{folder}/*.mat", rename=names)
+    before, begun = _peak(), time.perf_counter()
+    fit = ac.fit(
+        system, stream, SPEED, per_record={MASS: SPREAD}, strategy="sequences", progress=False
+    )
+    return {
+        "records": len(stream),
+        "samples": fit.samples_trained,
+        "seconds": time.perf_counter() - begun,
+        "epochs": fit.history.epochs,
+        "epoch_seconds": fit.seconds_per_epoch,
+        "before_mb": before,
+        "peak_mb": _peak(),
+        "loss_before": fit.loss_before,
+        "loss": fit.loss,
     }
 
 

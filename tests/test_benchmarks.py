@@ -203,6 +203,21 @@ def test_a_fleet_is_trained_and_swept_by_workers():
     assert found["one_core"]["workers"] > 0
 
 
+@pytest.mark.slow
+def test_a_fleet_is_trained_on_from_files():
+    run = subprocess.run(
+        [sys.executable, "-m", "benchmarks.fleet", "--stream", "0.005"],
+        cwd=Path(__file__).parents[1],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    found = json.loads(run.stdout.splitlines()[-1])
+    assert found["records"] == 1000
+    assert found["loss"] < found["loss_before"]
+    assert found["peak_mb"] < 1000
+
+
 def test_the_growth_of_a_figure_is_its_power():
     found = {10: {"a": 2.0, "b": 5.0}, 100: {"a": 20.0, "b": 5.0}}
     assert fleet.growth(found, "a") == pytest.approx(1)

@@ -56,10 +56,10 @@ def learned() -> ac.System:
     return ac.compile(Vehicle(net))
 
 
-def fleet(count: int, seed: int = 0) -> dict[str, ac.Data]:
+def fleet(count: int, seed: int = 0, seconds: float = SECONDS) -> dict[str, ac.Data]:
     """Records of some vehicles by name: a driving force in steps, and the speed with noise; masses as of `masses`."""
     random = np.random.default_rng(seed + 1)
-    system, steps = truth(), round(SECONDS / SAMPLE_TIME)
+    system, steps = truth(), round(seconds / SAMPLE_TIME)
     force = np.repeat(random.uniform(-500.0, 2000.0, (count, steps // 6 + 1)), 6, axis=1)
     force = force[:, : steps + 1]
     common = system.parameters()
@@ -69,7 +69,7 @@ def fleet(count: int, seed: int = 0) -> dict[str, ac.Data]:
     def speed(mass: Any, driven: Any, first: Any) -> Any:
         given = {INPUT: driven}, {**common, MASS: mass}, {SPEED: first}
         inputs, params, x0 = given
-        span = (0.0, SECONDS)
+        span = (0.0, SAMPLE_TIME * steps)
         run = ac.simulate(
             system, span, dt=SAMPLE_TIME, inputs=inputs, params=params, x0=x0, solver="rk4"
         )

@@ -154,10 +154,13 @@ def test_what_needs_whole_records_refuses_a_stream(stream, chosen, named):
 def test_other_refusals_say_what_to_do(stream, tmp_path):
     with pytest.raises(ac.TrainingError, match="give executor="):
         ac.ensemble(plain(), stream, "mass.a", members=2, strategy="sequences")
-    for call in (ac.cross_validate, in_memory().predict):
-        arguments = (stream,) if call != ac.cross_validate else (plain(), stream, "mass.a")
+    given: Any = stream
+    for call in (
+        lambda: ac.cross_validate(plain(), given, "mass.a"),
+        lambda: in_memory().predict(given),
+    ):
         with pytest.raises(ac.DataError, match=r"give some, such as \[stream\['run 7'\]\]"):
-            call(*arguments)
+            call()
     with pytest.raises(ac.DataError, match=r"'run 1': The data have 'x'"):
         train(ac.Data.stream({"run 1": lambda: {"time": [0, 1], "x": [1, 2]}}))
     (tmp_path / "a.csv").write_text("")

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -110,14 +111,17 @@ class Streamed:
         """Sequences of a record from some of its rows, stacked.
 
         Raises:
-            DataError: if it can be read no more.
+            DataError: if it can be read no more, or has changed.
         """
         system, name = training.system, self.names[record]
         data = {name: self.stream[name].for_system(system)}
+        if len(data[name]) != self.rows[record]:
+            raise DataError(f"'{name}' has changed since the training began; start it again.")
         laid, _ = lay_out(
             system, data, training.targets, None, training.solver, training.timing, even=self.even
         )
-        found: Any = laid.window(first, length)
+        # JAX would compile a program for every number of sequences
+        found: Any = jax.tree.map(np.asarray, laid).window(first, length)
         steps, of = found.steps, np.full(len(first), record)
         alike = np.ndim(steps.h) == 0
         steps = replace(steps, h=np.full(len(first), steps.h)) if alike else steps
