@@ -10,6 +10,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
+from scipy.stats import chi2
 
 from acausal._jax import compiled, traced
 from acausal.analysis.filtering import Filtered, Measured, smoothed
@@ -112,6 +113,20 @@ class Estimation(Solution):
         sigma = jnp.sqrt(jnp.maximum(jnp.stack([columns[n] for n in names], axis=1), 0.0))
         return sigma[:, 0] if isinstance(name, str) else sigma
 
+    def deviations(self, names: Sequence[str]) -> dict[str, Float[np.ndarray, " n"]]:
+        """The same by name, of those of some variables that are estimated; of estimates that JAX has returned, none."""
+        computed = [n for n in names if n not in self.system.inputs]
+        if not computed or self.path is None:
+            return {}
+        return dict(zip(computed, np.asarray(self.deviation(computed)).T, strict=True))
+
+    @property
+    def groups(self) -> dict[str, tuple[str, ...]]:
+        """The variables that a page shows, by heading; states first."""
+        estimated = {"Estimated parameters": tuple(self.parameters)} if self.parameters else {}
+        states, inputs = super().groups.items()
+        return dict([states, *estimated.items(), inputs])
+
     @property
     def nis(self) -> Float[Array, " n"]:
         """Squared innovations over their covariances: of a consistent filter χ², one degree for each sensor."""
@@ -119,6 +134,17 @@ class Estimation(Solution):
         value = jnp.where(jnp.isnan(value), 0.0, value)
         weighted = jnp.linalg.solve(self.innovation_covariance, value[..., None])[..., 0]
         return jnp.sum(value * weighted, axis=1)
+
+    @property
+    def consistency(self) -> str:
+        """How large squared innovations are on average, and how large those of a consistent filter, in a sentence."""
+        count = int(sum(np.isfinite(v).sum() for v in self.innovations.values()))
+        low, high = chi2.ppf([0.025, 0.975], count) / count
+        mean = float(jnp.sum(self.nis)) / count
+        return (
+            f"{count} innovations, squared over their variances {mean:.3g} on average (of a consistent filter "
+            f"{low:.3g} to {high:.3g})"
+        )
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -136,6 +162,10 @@ class Estimation(Solution):
             )
         return self.path
 
+    @property
+    def _about(self) -> list[str]:
+        return [f"log likelihood {float(self.log_likelihood):.6g}", self.consistency]
+
     def __repr__(self) -> str:
         if traced(self.t):
             return f"Estimation({len(self.names)} variables)"
@@ -147,6 +177,7 @@ class Estimation(Solution):
         lines = [
             f"Estimation from {', '.join(self.sensors)}, {kind}: {span}",
             f"  log likelihood  {float(self.log_likelihood):.6g}",
+            f"  consistency     {self.consistency}",
         ]
         rows = zip(states, now, last, strict=True)
         lines += [f"  {n} {v:.5g} ± {s:.2g} {self.unit(n)} at the end".rstrip() for n, v, s in rows]

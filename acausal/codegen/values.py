@@ -21,6 +21,11 @@ class Packed(eqx.Module):
     values: Array
     modules: tuple[Any, ...]
 
+    @property
+    def last(self) -> Packed:
+        """The same at the last of several points, where numbers differ between them."""
+        return self if self.values.ndim == 1 else Packed(self.values[-1], self.modules)
+
     def replaced(self, places: tuple[int, ...], numbers: Array) -> Packed:
         """The same with other numbers in some places."""
         return Packed(self.values.at[np.asarray(places)].set(numbers), self.modules)

@@ -1,4 +1,4 @@
-"""`page`: a model, a simulation or a training as one HTML file that explains itself."""
+"""`page`: a model, a simulation, estimates or a training as one HTML file that explains itself."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from acausal.errors import DataError, shown
 from acausal.files import need_path, write_files
 from acausal.modeling import Component
 from acausal.pages.components import MOST_CARDS, Known, component_cards, schematic
+from acausal.pages.estimates import sensors
 from acausal.pages.trajectories import plots_by_unit
 from acausal.reporting import PageContent, Section, Tab, render
 from acausal.simulation import Solution, has_shapes
@@ -30,13 +31,14 @@ class WithPage(Protocol):
 def page(
     subject: Component | System | Solution | WithPage, path: str | Path, title: str = ""
 ) -> Path:
-    """Write a page that explains a model, a simulation or a training: one HTML file that needs no network.
+    """Write a page that explains a model, a simulation, estimates or a training: one HTML file that needs no network.
 
     It shows the schematic and, for every component, its equations, parameters, trajectories and energy; of a training
-    also records, learned laws and how sure they are. With ``pip install 'acausal[page]'`` plots can be zoomed and read.
+    also records, learned laws and how sure they are; of estimates their bands and what sensors showed. With
+    ``pip install 'acausal[page]'`` plots can be zoomed and read.
 
     Arguments:
-        subject: a model, compiled or not, a `Solution` or a `Fit`.
+        subject: a model, compiled or not, a `Solution`, estimates or a `Fit`.
         path: a folder, in which ``index.html`` is written, or a file that ends in ``.html``.
         title: headline; by default the model's name.
 
@@ -78,7 +80,7 @@ def model_content(subject: System | Solution, title: str = "") -> PageContent:
     """What the page of a model tells, and of a simulation of it."""
     system = subject if isinstance(subject, System) else subject.system
     if isinstance(subject, Solution):
-        known = Known(subject.packed, runs={"simulated": subject})
+        known = Known(subject.packed.last, runs={"simulated": subject})
     else:
         known = Known(system.pack())
     return PageContent(
@@ -86,7 +88,9 @@ def model_content(subject: System | Solution, title: str = "") -> PageContent:
         summary(system),
         schematic(system.model),
         component_cards(system, known),
-        (*motion(subject), *_trajectories(subject)) if isinstance(subject, Solution) else (),
+        (*sensors(subject), *motion(subject), *_trajectories(subject))
+        if isinstance(subject, Solution)
+        else (),
     )
 
 
@@ -113,15 +117,16 @@ def motion(solution: Solution) -> tuple[Tab, ...]:
 
 
 def _trajectories(solution: Solution) -> tuple[Tab, ...]:
-    """States and inputs over time."""
-    system = solution.system
+    """States and inputs over time, and what else a solution shows."""
     parts: list[Section] = []
-    for heading, names in (("States", system.states), ("Inputs", system.inputs)):
+    for heading, names in solution.groups.items():
         columns = solution.to_dict(names)
         time = columns.pop("time")
-        units = {n: system.unit(n) for n in names}
-        steps = [n for n in names if system.is_discrete(n)] if heading == "States" else []
-        plots = plots_by_unit(time, columns, units, group="trajectories", most=POINTS, steps=steps)
+        units, sigma = {n: solution.unit(n) for n in names}, solution.deviations(names)
+        steps = [n for n in solution.system.states if solution.system.is_discrete(n)]
+        plots = plots_by_unit(
+            time, columns, units, group="trajectories", most=POINTS, steps=steps, sigma=sigma
+        )
         if plots:
             parts.append(Section(heading, tuple(plots)))
     return (Tab("Trajectories", tuple(parts)),) if parts else ()

@@ -23,6 +23,7 @@ def plots_by_unit(
     group: str,
     most: int,
     steps: Collection[str] = (),
+    sigma: Mapping[str, Numbers] | None = None,
 ) -> list[Plot]:
     """Variables of one run, those of one unit in one plot.
 
@@ -32,7 +33,9 @@ def plots_by_unit(
         group: of the plots.
         most: points in a plot.
         steps: the labels of what keeps each value until the next.
+        sigma: standard deviations by label, where they are known.
     """
+    known = sigma or {}
     found: dict[str, list[str]] = {}
     for name in columns:
         found.setdefault(units[name], []).append(name)
@@ -40,7 +43,7 @@ def plots_by_unit(
     for unit, names in found.items():
         for i in range(0, len(names), CURVES_EACH):
             some = names[i : i + CURVES_EACH]
-            curves = [Curve(n, t, columns[n], steps=n in steps) for n in some]
+            curves = [Curve(n, t, columns[n], sigma=known.get(n), steps=n in steps) for n in some]
             label = some[0] if len(some) == 1 else ""
             plots.append(
                 Plot(

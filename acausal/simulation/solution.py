@@ -236,6 +236,15 @@ class Solution(ByName):
         steps = [n for n in curves if self.system.is_discrete(n)]
         return plot_over_time(time, curves, units, axes=axes, steps=steps)
 
+    @property
+    def groups(self) -> dict[str, tuple[str, ...]]:
+        """The variables that a page shows, by heading; states first."""
+        return {"States": self.system.states, "Inputs": self.system.inputs}
+
+    def deviations(self, names: Sequence[str]) -> dict[str, Float[np.ndarray, " n"]]:
+        """The standard deviations of some variables over time, where they are known: of estimates."""
+        return {}
+
     def animation(self, *, trace: str | None = None, caption: str = "") -> Animation:
         """The mechanism in motion, a part of a page: ``page.add(solution.animation(trace="coupler"))``.
 
@@ -250,7 +259,9 @@ class Solution(ByName):
             DataError: if no component has a shape, or ``trace`` is none that has a way.
         """
         t = np.asarray(self.t, float)
-        return animation(self.system, self.packed, t, self._columns, trace=trace, caption=caption)
+        return animation(
+            self.system, self.packed.last, t, self._columns, trace=trace, caption=caption
+        )
 
     def _with_both_sides(
         self, names: Sequence[str]
@@ -288,22 +299,32 @@ class Solution(ByName):
             self._observed.update(zip(new, values, strict=True))
         warn_of_nonfinite(self.system, self.values, {n: self._observed[n] for n in unread})
 
+    @property
+    def _about(self) -> list[str]:
+        """Facts for a view."""
+        return []
+
     def _repr_html_(self) -> str:
         from acausal.simulation.solution_view import solution_view
 
-        title = f"Solution of {self.system.flat.name}"
+        title = f"{type(self).__name__} of {self.system.flat.name}"
         if traced(self.t) or self.t.ndim != 1 or not len(self.t):
             return solution_view(title, [f"shape {self.t.shape}"], np.zeros(0), {}, {})
-        names = (*self.system.states, *self.system.discrete, *self.system.inputs)[:CURVES_VIEWED]
+        states, *others = self.groups.values()
+        names = (*states, *self.system.discrete, *(n for some in others for n in some))
+        names = names[:CURVES_VIEWED]
         time, curves = self._with_both_sides(names or self.names[:CURVES_VIEWED])
         about = [f"{len(self.t)} points from {float(self.t[0]):g} to {float(self.t[-1]):g} s"]
         about += [f"{len(self.names)} variables, by name: solution['{self.names[0]}']"]
+        about += self._about
         about += [f"{len(self.events)} events"] if self.log is not None else []
         about += [str(self.statistics)] if self.statistics is not None else []
         units = {n: self.system.unit(n) for n in curves}
         steps = [n for n in curves if self.system.is_discrete(n)]
         moving = self.animation() if has_shapes(self.system) else None
-        return solution_view(title, about, time, curves, units, steps, moving)
+        return solution_view(
+            title, about, time, curves, units, steps, moving, self.deviations(names)
+        )
 
     def __repr__(self) -> str:
         shape = f"{self.t.shape[0]} points"

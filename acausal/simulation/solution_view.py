@@ -21,6 +21,7 @@ def solution_view(
     units: Mapping[str, str],
     steps: Sequence[str] = (),
     moving: Animation | None = None,
+    sigma: Mapping[str, Float[np.ndarray, " n"]] | None = None,
 ) -> str:
     """HTML of a trajectory.
 
@@ -30,6 +31,7 @@ def solution_view(
         curves: by name, what is shown of it. units: by name.
         steps: the curves that keep each value until the next.
         moving: the mechanism, of which the last frame is shown.
+        sigma: the standard deviations of some curves.
     """
     view = View(title, ", ".join(about))
     if moving is not None:
@@ -38,7 +40,10 @@ def solution_view(
     for name in curves:
         groups.setdefault(units[name], []).append(name)
     for unit, names in list(groups.items())[:MOST_PLOTS]:
-        lines = [Curve(n, time, curves[n], steps=n in steps) for n in names[:MOST_CURVES]]
+        lines = [
+            Curve(n, time, curves[n], sigma=(sigma or {}).get(n), steps=n in steps)
+            for n in names[:MOST_CURVES]
+        ]
         view.html(small_plot(lines, across="time in s", upwards=unit or "1"))
     rows = [
         (name, y[0], y[-1], np.nanmin(y), np.nanmax(y), units[name])
