@@ -16,7 +16,8 @@ Kalman filter.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
@@ -36,6 +37,8 @@ from acausal.analysis.filtering import (
     run,
     smoothed,
 )
+
+Tree = TypeVar("Tree")
 
 TRIALS = 20
 """Steps for the way of a window, at most."""
@@ -82,12 +85,8 @@ class MovingHorizon(NamedTuple):
             here, before = row - first, jnp.maximum(row - first - 1, 0)
             window = _window(measured, sigma, arrival, self.bounds, first, row, count)
 
-            def along(noise: Float[Array, "W m"]) -> _Tangent:
-                return _Tangent.along(path, first, window, noise)
-
-            begun = along(noise)
-            expected = begun.filtered()
-            found, converged = _most_likely(along, begun)
+            expected = _Tangent.along(path, first, window, noise).filtered()
+            found, converged = _most_likely(path, first, window, noise)
             after = found.filtered()
             exact = converged & (self.bounds is None)
             estimate = Filtered(
@@ -208,6 +207,23 @@ class _Tangent(eqx.Module):
         excess = None if bounds is None else bounds.excess(line.z)
         return self._cost(self.noise, line.y, excess)
 
+    def gradient(self) -> Float[Array, "W m"]:
+        """The cost's without bounds, by the noise that may differ from zero; for the rest the noise itself."""
+        window, line = self.window, self.line
+
+        def cost(more: Float[Array, "W m"]) -> Float[Array, ""]:
+            def advance(z: Array, row: tuple[Array, Array]) -> tuple[Array, Array]:
+                slope, own = row
+                return (after := slope @ z + own), after
+
+            _, later = jax.lax.scan(advance, more[0], (line.slope, more[1:]))
+            off = jnp.concatenate([more[:1], later])
+            y = line.y + jnp.einsum("wpi,wi->wp", line.read, off)
+            return self._cost(self.noise + more, y, None)
+
+        spread = jnp.concatenate([jnp.diag(window.arrival.covariance)[None], window.sigma])
+        return jnp.where(spread > 0, jax.grad(cost)(jnp.zeros_like(self.noise)), self.noise)
+
     @property
     def scale(self) -> Float[Array, ""]:
         """As of `LocalModel`: noise is measured by its own deviation."""
@@ -267,9 +283,57 @@ EKF = Linearized(by_derivatives)
 
 
 def _most_likely(
-    along: Callable[[Float[Array, "W m"]], _Tangent], begin: _Tangent
+    path: Path, first: Array, window: _Window, noise: Float[Array, "W m"]
 ) -> tuple[_Tangent, Bool[Array, ""]]:
-    """The most likely way of a window, and whether its steps have converged."""
+    """The most likely way of a window, sought from a noise on, and whether the steps to it have converged.
+
+    Its derivatives are those of a way at which the gradient of the cost vanishes. With bounds the steps may end before
+    that, and JAX refuses to differentiate their loop.
+    """
+
+    def along(noise: Float[Array, "W m"], path: Path = path, window: _Window = window) -> _Tangent:
+        return _Tangent.along(path, first, window, noise)
+
+    if window.bounds is not None:
+        return _sought(along, noise)
+
+    def solve(linear: Callable[[Array], Array], y: Float[Array, " n"]) -> Float[Array, " n"]:
+        return jnp.linalg.solve(jax.jacobian(linear)(y), y)
+
+    fixed = jax.tree.map(_constant, (path, window))
+    found, converged = _sought(partial(along, path=fixed[0], window=fixed[1]), _constant(noise))
+    root = jax.lax.custom_root(
+        lambda n: along(n.reshape(noise.shape)).gradient().ravel(),
+        found.noise.ravel(),
+        lambda function, root: root,
+        solve,
+    )
+    exact = along(root.reshape(noise.shape))
+    return _Tangent(
+        window, *_with_derivatives((found.noise, found.line), (exact.noise, exact.line))
+    ), converged
+
+
+@jax.custom_jvp
+def _with_derivatives(values: Tree, same: Tree) -> Tree:
+    """Some values with the derivatives of others, which need not be computed where nobody asks for them."""
+    return values
+
+
+@_with_derivatives.defjvp
+def _(primals: tuple[Tree, Tree], tangents: tuple[Tree, Tree]) -> tuple[Tree, Tree]:
+    return primals[0], tangents[1]
+
+
+def _constant(leaf: Any) -> Any:
+    return jax.lax.stop_gradient(leaf) if eqx.is_array(leaf) else leaf
+
+
+def _sought(
+    along: Callable[[Float[Array, "W m"]], _Tangent], noise: Float[Array, "W m"]
+) -> tuple[_Tangent, Bool[Array, ""]]:
+    """The most likely way, by damped steps from a noise on, and whether they have converged."""
+    begin = along(noise)
 
     def goes_on(carry: tuple[Damped, Array]) -> Bool[Array, ""]:
         state, count = carry
@@ -278,10 +342,10 @@ def _most_likely(
     def trial(carry: tuple[Damped, Array]) -> tuple[Damped, Array]:
         state, count = carry
         point = state.point + state.step
-        tangent = along(point.reshape(begin.noise.shape))
+        tangent = along(point.reshape(noise.shape))
         return after_trial(state, point, tangent.cost(), tangent), count + 1
 
-    start = before_trials(begin.noise.ravel(), begin, damping=0.0)
+    start = before_trials(noise.ravel(), begin, damping=0.0)
     first = after_trial(start, start.point, begin.cost(), begin)
     state, _ = jax.lax.while_loop(goes_on, trial, (first, jnp.zeros((), int)))
     return state.model, state.converged

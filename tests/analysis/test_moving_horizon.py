@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
@@ -72,3 +74,55 @@ def test_bounds_are_those_of_least_squares():
         wanted = np.concatenate([[0.2 / first], np.zeros(last), y[:n] / r])
         best = lsq_linear(rows, wanted, (0.0, np.inf), method="bvls").x[-1]
         assert float(found["h"][last]) == pytest.approx(best, abs=1e-3 * first)
+
+
+def tank(method, **more):
+    """Levels, deviation and likelihood by the noise of sensor and state, and the rate."""
+    t, rng = 0.1 * np.arange(8), np.random.default_rng(3)
+    data = ac.Data(t, {"h": 0.1 * np.exp(-t) + 0.3 * rng.standard_normal(8)})
+
+    @jax.jit
+    def found(theta):
+        r, q, rate = theta
+        found = ac.estimate(
+            ac.compile(Tank()), data, method, states={"h": 0.5}, x0={"h": 0.2}, dt=0.1, solver="rk4",
+            sensors={"h": r}, noise={"h": q}, params={"rate": rate}, **more,
+        )  # fmt: skip
+        return jnp.stack([jnp.sum(found["h"]), found.deviation("h")[-1], found.log_likelihood])
+
+    return found
+
+
+THETA = jnp.array([0.3, 0.5, 1.2])
+
+
+def differences(function, h=1e-5):
+    steps = h * np.eye(3)
+    return np.stack([(function(THETA + d) - function(THETA - d)) / (2 * h) for d in steps], 1)
+
+
+@pytest.mark.slow
+def test_gradients_go_through_the_horizon():
+    found = jax.jacrev(tank("mhe", window=4))(THETA)
+    np.testing.assert_allclose(found, jax.jacrev(tank("ekf"))(THETA), rtol=1e-7, atol=1e-9)
+    with pytest.raises(ValueError, match="Reverse-mode differentiation does not work"):
+        jax.jacrev(tank("mhe", window=4, bounds={"h": (0.0, None)}))(THETA)
+
+
+@pytest.mark.slow
+def test_gradients_of_a_nonlinear_horizon_are_those_of_differences():
+    system = ac.compile(Pendulum(), check_units=False)
+    truth = ac.simulate(system, 0.4, dt=0.02, x0={"phi": 2.5, "w": -1.0})
+    noise = 0.02 * np.random.default_rng(0).standard_normal(len(truth.t))
+    data = ac.Data(truth.t, {"x": truth["x"] + noise})
+
+    @jax.jit
+    def found(theta):
+        r, q, rub = theta
+        found = ac.estimate(
+            system, data, "mhe", states={"phi": 2.0, "w": 3.0}, x0={"phi": 2.0}, window=8,
+            dt=0.02, solver="rk4", sensors={"x": 0.1 * r}, noise={"w": q}, params={"rub": rub},
+        )  # fmt: skip
+        return jnp.stack([jnp.sum(found["phi"]), found.deviation("w")[-1], found.log_likelihood])
+
+    np.testing.assert_allclose(jax.jacrev(found)(THETA), differences(found), rtol=2e-3, atol=1e-3)
