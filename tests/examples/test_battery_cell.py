@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from examples.battery_cell import __main__ as command, engineer, figures, study
+from examples.battery_cell import __main__ as command, charge, engineer, figures, study
 from examples.battery_cell.laws import RisingSteps
 from examples.battery_cell.model import NETS, build
 from examples.battery_cell.predict import first_charge, predict, write
@@ -225,3 +225,20 @@ def test_the_cell_follows_what_it_was_trained_on():
     assert max(e["trained"] for e in errors.values()) < 15.0
     assert errors["discharge_1c"]["case"] < 0.5
     assert errors["discharge_3c"]["case"] < 0.5
+
+
+@pytest.mark.slow
+@REAL
+def test_a_held_back_discharge_tells_its_charge_from_a_wrong_start():
+    tables = campaign(DATA)
+    fit = study.train({n: tables[n] for n in ("hppc_25c", "hppc_40c")}, epochs=8)
+    held = charge.part(
+        tables["discharge_1c"], 10025.0, 13655.0
+    )  # a minute of rest, then until empty
+    time, counted = held.data(0.0).time, charge.counted(fit.system, fit.params, held)
+    late = time > held.time[0] + 660.0
+    for soc in (0.6, 0.2):
+        found = charge.estimate(fit.system, fit.params, held, soc)
+        off = np.asarray(found["particle.soc"])[np.searchsorted(found.t, time)] - counted
+        assert np.abs(off[late]).max() < 0.05
+        assert found.deviation("particle.soc")[-1] < 0.01
