@@ -23,6 +23,7 @@ from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.preparation import prepare
 from acausal.training.presentation.page_of_several import prediction_blocks, several_content
 from acausal.training.result import Fit
+from acausal.training.streaming import need_one_training
 from acausal.training.train_from_starts import run
 from acausal.training.uncertainty.bumps import SIGMAS
 from acausal.training.uncertainty.confidence import BAND_POINTS, Band
@@ -177,6 +178,7 @@ def ensemble(
     need_compiled(system, "ensemble")
     members = need_whole(members, "members", TrainingError, 2)
     fit_options = FitOptions.of("ensemble", options)
+    need_one_training(data, fit_options, members)
     if fit_options.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")
     if fit_options.starts > 1:

@@ -10,6 +10,7 @@ from acausal.errors import need_compiled
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.preparation import prepare
 from acausal.training.result import Fit
+from acausal.training.streaming import need_one_training
 from acausal.training.train_from_starts import run
 
 if TYPE_CHECKING:
@@ -53,5 +54,6 @@ def fit(
     """
     need_compiled(system, "fit")
     fit_options = FitOptions.of("fit", options)
+    need_one_training(data, fit_options, fit_options.starts)
     (trained,) = run(prepare(system, data, targets, fit_options, seeds=(seed,), params=(params,)))
     return trained

@@ -103,7 +103,7 @@ def prepare(
     }  # fmt: skip
     names, streamed = names_in(targets, "targets"), None
     if isinstance(given, Stream):
-        records, options, streamed = look_at(system, given, names, options, len(seeds))
+        records, options, streamed = look_at(system, given, names, options)
     else:
         records = {n: record.for_system(system) for n, record in given.items()}
     kept = split(records, options.validation)

@@ -16,14 +16,26 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 
+def need_one_training(data: object, options: FitOptions, trainings: int) -> None:
+    """Refuse several trainings of a stream in one program.
+
+    Raises:
+        TrainingError: for them.
+    """
+    if isinstance(data, Stream) and trainings > 1 and options.executor is None:
+        raise TrainingError(
+            "Several trainings in one program share their sequences in memory, which a stream has not: give "
+            "executor=, so that each is trained on a worker."
+        )
+
+
 def look_at(
-    system: System, stream: Stream, targets: Sequence[str], options: FitOptions, trainings: int
+    system: System, stream: Stream, targets: Sequence[str], options: FitOptions
 ) -> tuple[dict[str, Data], FitOptions, Streamed]:
     """The beginnings of the records to train on, the options with held-out records in memory, and all else.
 
     Arguments:
         system, stream, targets, options: of the training.
-        trainings: how many there are.
 
     Raises:
         DataError: for a record that cannot be trained on.
@@ -34,11 +46,6 @@ def look_at(
         raise TrainingError(
             f"{needs} needs whole records in memory, but a stream is trained with strategy='sequences' alone: give "
             "some of the records, such as [stream['run 7']], or dict(stream) to read all."
-        )
-    if trainings * options.starts > 1 and options.executor is None:
-        raise TrainingError(
-            "Several trainings in one program share their sequences in memory, which a stream has not: give "
-            "executor=, so that each is trained on a worker."
         )
     names = named_records(options.validation)
     for name in names:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from typing import Any
 
@@ -149,6 +150,15 @@ def test_what_needs_whole_records_refuses_a_stream(stream, chosen, named):
         ac.TrainingError, match=f"{named} needs whole records in memory.* dict.stream. to read all"
     ):
         train(stream, **chosen)
+
+
+def test_members_are_trained_on_workers(stream):
+    found = ac.ensemble(
+        plain(), stream, "mass.a", members=2, executor=ThreadPoolExecutor, progress=False, epochs=2,
+        modifiers=["mass.m"], strategy="sequences", sequence_length=0.2,
+    )  # fmt: skip
+    alone = train(stream, seed=1, per_record=None, subsample=None, batch_size=None, epochs=2)
+    np.testing.assert_allclose(found.fits[1].history.loss, alone.history.loss, rtol=1e-10)
 
 
 def test_other_refusals_say_what_to_do(stream, tmp_path):
