@@ -93,7 +93,7 @@ def estimate(
         record: with the model's inputs, and measurements of any of its variables.
         method: ``"ekf"``, the extended Kalman filter, whose derivatives are exact; ``"ukf"``, the unscented one;
             ``"enkf"``, an ensemble; or ``"mhe"``, a moving horizon: the most likely way through the last rows, found by
-            Gauss-Newton steps at every row (no reverse mode with ``bounds``).
+            Gauss-Newton steps at every row.
         sensors: what of the record is measured, by default all that the model computes; or the standard deviations of
             their noise, by name. Others are estimated from the record.
         states: standard deviations of the states at the start, by name; by default the noise of the sensor where a

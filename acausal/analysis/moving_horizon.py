@@ -43,6 +43,9 @@ Tree = TypeVar("Tree")
 TRIALS = 20
 """Steps for the way of a window, at most."""
 
+MEETINGS = 4
+"""How often a step is repeated with the bounds that it meets."""
+
 SOFT = 1e-3
 """How far a bound may be exceeded, about: in standard deviations at the start."""
 
@@ -53,6 +56,10 @@ class Bounds(NamedTuple):
     low: Float[Array, " m"]
     high: Float[Array, " m"]
     sigma: Float[Array, " m"]
+
+    def within(self, z: Float[Array, "*W m"]) -> Float[Array, "*W m"]:
+        """The nearest numbers that lie within them."""
+        return jnp.clip(z, self.low, self.high)
 
     def excess(self, z: Float[Array, " m"]) -> Float[Array, " m"]:
         """By how much they lie outside."""
@@ -208,7 +215,7 @@ class _Tangent(eqx.Module):
         return self._cost(self.noise, line.y, excess)
 
     def gradient(self) -> Float[Array, "W m"]:
-        """The cost's without bounds, by the noise that may differ from zero; for the rest the noise itself."""
+        """The cost's, by the noise that may differ from zero; for the rest the noise itself."""
         window, line = self.window, self.line
 
         def cost(more: Float[Array, "W m"]) -> Float[Array, ""]:
@@ -218,8 +225,9 @@ class _Tangent(eqx.Module):
 
             _, later = jax.lax.scan(advance, more[0], (line.slope, more[1:]))
             off = jnp.concatenate([more[:1], later])
-            y = line.y + jnp.einsum("wpi,wi->wp", line.read, off)
-            return self._cost(self.noise + more, y, None)
+            y, bounds = line.y + jnp.einsum("wpi,wi->wp", line.read, off), window.bounds
+            excess = None if bounds is None else bounds.excess(line.z + off)
+            return self._cost(self.noise + more, y, excess)
 
         spread = jnp.concatenate([jnp.diag(window.arrival.covariance)[None], window.sigma])
         return jnp.where(spread > 0, jax.grad(cost)(jnp.zeros_like(self.noise)), self.noise)
@@ -231,38 +239,51 @@ class _Tangent(eqx.Module):
 
     def trial(self, damping: Float[Array, ""]) -> tuple[Float[Array, " n"], Float[Array, ""]]:
         """As of `LocalModel`; the step is one of the noise."""
-        window, line, bounds = self.window, self.line, self.window.bounds
-        part, arrival, measured = damping / (1 + damping), window.arrival, window.measured
-        excess = None
-        nearer = eqx.tree_at(lambda a: a.ahead, line, line.ahead + part * self.noise[1:])
-        if bounds is not None:
-            excess = bounds.excess(line.z)
-            beyond = excess != 0
-            tied = jax.vmap(jnp.diag)(beyond.astype(float))
-            nearer = eqx.tree_at(
-                lambda a: (a.y, a.read),
-                nearer,
-                (
-                    jnp.concatenate([line.y, excess], axis=1),
-                    jnp.concatenate([line.read, tied], axis=1),
-                ),
-            )
-            measured = Measured(
-                jnp.concatenate([measured.y, jnp.zeros_like(excess)], axis=1),
-                jnp.concatenate([measured.known, beyond], axis=1),
-                jnp.concatenate([measured.sigma, bounds.sigma]),
-            )
-        prior = Belief(arrival.mean + part * self.noise[0], arrival.covariance / (1 + damping))
-        sigma = window.sigma / jnp.sqrt(1 + damping)
-        z, _ = smoothed(run(EKF, nearer, prior, measured, sigma, as_key(0)))
-        off = z - line.z
-        first = jnp.where(jnp.diag(arrival.covariance) > 0, z[0] - arrival.mean, 0.0)
+        bounds, line = self.window.bounds, self.line
+        z = self._passed(damping, None) if bounds is None else self._meeting(damping, bounds)
+        off, window = z - line.z, self.window
+        first = jnp.where(jnp.diag(window.arrival.covariance) > 0, z[0] - window.arrival.mean, 0.0)
         rest = z[1:] - line.ahead - jnp.einsum("wij,wj->wi", line.slope, off[:-1])
         noise = jnp.concatenate([first[None], jnp.where(window.sigma > 0, rest, 0.0)])
         y = line.y + jnp.einsum("wpi,wi->wp", line.read, off)
-        if excess is not None:
-            excess = excess + jnp.where(excess != 0, off, 0.0)
+        excess = None if bounds is None else bounds.excess(z)
         return (noise - self.noise).ravel(), self.cost() - self._cost(noise, y, excess)
+
+    def _meeting(self, damping: Float[Array, ""], bounds: Bounds) -> Float[Array, "W m"]:
+        """The way after a step that is tied to the bounds which it meets."""
+
+        def goes_on(carry: tuple[Array, Array, Array]) -> Bool[Array, ""]:
+            z, which, count = carry
+            return (count == 0) | ((count < MEETINGS) & ((bounds.excess(z) != 0) != which).any())
+
+        def again(carry: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+            z, _, count = carry
+            which = bounds.excess(z) != 0
+            return self._passed(damping, (which, bounds.within(z))), which, count + 1
+
+        begin = self.line.z, jnp.zeros(self.line.z.shape, bool), jnp.zeros((), int)
+        return jax.lax.while_loop(goes_on, again, begin)[0]
+
+    def _passed(
+        self, damping: Float[Array, ""], tied: tuple[Array, Array] | None
+    ) -> Float[Array, "W m"]:
+        """The way after a damped step, some of whose numbers are tied to others like measurements."""
+        window, line, measured = self.window, self.line, self.window.measured
+        part, arrival = damping / (1 + damping), window.arrival
+        nearer = eqx.tree_at(lambda a: a.ahead, line, line.ahead + part * self.noise[1:])
+        if tied is not None and window.bounds is not None:
+            which, to = tied
+            seen = jnp.concatenate([line.y, jnp.where(which, line.z - to, 0.0)], axis=1)
+            read = jnp.concatenate([line.read, jax.vmap(jnp.diag)(which.astype(float))], axis=1)
+            nearer = eqx.tree_at(lambda a: (a.y, a.read), nearer, (seen, read))
+            measured = Measured(
+                jnp.concatenate([measured.y, jnp.zeros_like(line.z)], axis=1),
+                jnp.concatenate([measured.known, which], axis=1),
+                jnp.concatenate([measured.sigma, window.bounds.sigma]),
+            )
+        prior = Belief(arrival.mean + part * self.noise[0], arrival.covariance / (1 + damping))
+        sigma = window.sigma / jnp.sqrt(1 + damping)
+        return smoothed(run(EKF, nearer, prior, measured, sigma, as_key(0)))[0]
 
     def _cost(
         self,
@@ -287,15 +308,11 @@ def _most_likely(
 ) -> tuple[_Tangent, Bool[Array, ""]]:
     """The most likely way of a window, sought from a noise on, and whether the steps to it have converged.
 
-    Its derivatives are those of a way at which the gradient of the cost vanishes. With bounds the steps may end before
-    that, and JAX refuses to differentiate their loop.
+    Its derivatives are those of a way at which the gradient of the cost vanishes.
     """
 
     def along(noise: Float[Array, "W m"], path: Path = path, window: _Window = window) -> _Tangent:
         return _Tangent.along(path, first, window, noise)
-
-    if window.bounds is not None:
-        return _sought(along, noise)
 
     def solve(linear: Callable[[Array], Array], y: Float[Array, " n"]) -> Float[Array, " n"]:
         return jnp.linalg.solve(jax.jacobian(linear)(y), y)

@@ -105,8 +105,13 @@ def differences(function, h=1e-5):
 def test_gradients_go_through_the_horizon():
     found = jax.jacrev(tank("mhe", window=4))(THETA)
     np.testing.assert_allclose(found, jax.jacrev(tank("ekf"))(THETA), rtol=1e-7, atol=1e-9)
-    with pytest.raises(ValueError, match="Reverse-mode differentiation does not work"):
-        jax.jacrev(tank("mhe", window=4, bounds={"h": (0.0, None)}))(THETA)
+
+
+@pytest.mark.slow
+def test_with_bounds_they_are_those_of_differences():
+    free, found = (tank("mhe", window=4, bounds=b) for b in (None, {"h": (0.0, None)}))
+    assert abs(found(THETA)[0] - free(THETA)[0]) > 0.05
+    np.testing.assert_allclose(jax.jacrev(found)(THETA), differences(found), rtol=1e-5, atol=1e-7)
 
 
 @pytest.mark.slow
