@@ -10,7 +10,8 @@ Optimization 4, 1994). Damping it divides P and Q by 1 + λ and moves their mean
 L. Svensson: Levenberg-Marquardt and line-search extended Kalman smoothers, ICASSP 2020). The arrival cost is the
 filter's belief (C. Rao, J. Rawlings, D. Mayne: Constrained state estimation for nonlinear discrete-time systems, IEEE
 TAC 48, 2003), linearized at the way that the window has found, without its bounds. For a linear model all of it is the
-Kalman filter.
+Kalman filter. Bounds are tied where a step meets them (M. Hintermüller, K. Ito, K. Kunisch: The primal-dual active set
+strategy as a semismooth Newton method, SIAM J. Optimization 13, 2002).
 """
 
 from __future__ import annotations

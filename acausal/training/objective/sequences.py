@@ -211,7 +211,7 @@ def cut(
     first, last = np.asarray(records.first), np.asarray(records.last)
     rows, t = last - first + 1, np.asarray(records.steps.t)
     startable = records.x is not None and not lacking and not tiled
-    seconds, n, batch_size = sizes(rows, t[last] - t[first], startable, seconds, batch_size)
+    seconds, n, batch_size = batch_sizes(rows, t[last] - t[first], startable, seconds, batch_size)
     if seconds is None and batch_size != 1:
         raise DataError(
             f"batch_size={batch_size} needs a sequence_length in seconds, shorter than the record."
@@ -239,7 +239,7 @@ def cut(
     )
 
 
-class Sizes(NamedTuple):
+class BatchSizes(NamedTuple):
     """Of batches: seconds and rows in a sequence, ``None`` and the longest record's for whole records; sequences."""
 
     seconds: float | None
@@ -247,13 +247,13 @@ class Sizes(NamedTuple):
     batch_size: int
 
 
-def sizes(
+def batch_sizes(
     rows: Int[np.ndarray, " R"],
     spans: Float[np.ndarray, " R"],
     startable: bool,
     seconds: float | Literal["auto"] | None,
     batch_size: int | None,
-) -> Sizes:
+) -> BatchSizes:
     """The sizes of batches.
 
     Arguments:
@@ -265,8 +265,10 @@ def sizes(
         fits = startable and rows.max() >= 2 * SAMPLES
         if batch_size is None:
             batch_size = SEQUENCES if fits else 1
-        return Sizes(*((np.inf, SAMPLES) if fits else (None, int(rows.max()))), batch_size)
-    return Sizes(seconds, _length(rows, spans, seconds), 1 if batch_size is None else batch_size)
+        return BatchSizes(*((np.inf, SAMPLES) if fits else (None, int(rows.max()))), batch_size)
+    return BatchSizes(
+        seconds, _length(rows, spans, seconds), 1 if batch_size is None else batch_size
+    )
 
 
 def _length(rows: np.ndarray, spans: np.ndarray, seconds: float | None) -> int:

@@ -19,8 +19,8 @@ from acausal.training.objective.lay_out import common, lay_out
 from acausal.training.objective.records import Places, Window
 from acausal.training.objective.sequences import (
     Sequences,
+    batch_sizes,
     need_starts,
-    sizes,
     some,
     startable_in,
 )
@@ -96,7 +96,9 @@ class Streamed:
         lacking: Sequence[str],
     ) -> Sequences:
         """How sequences are drawn; arguments and errors as of `acausal.training.objective.sequences.cut`."""
-        seconds, n, batch_size = sizes(self.rows, self.spans, not lacking, seconds, batch_size)
+        seconds, n, batch_size = batch_sizes(
+            self.rows, self.spans, not lacking, seconds, batch_size
+        )
         if seconds is None:
             raise DataError(
                 "The records of a stream are trained in sequences: give their sequence_length= in seconds."
