@@ -16,6 +16,7 @@ from acausal.codegen.instructions import (
     ArrayFormula as ArrayFormula,
     Instruction as Instruction,
     SolveTornLoop as SolveTornLoop,
+    UnlikeFormulas as UnlikeFormulas,
 )
 from acausal.codegen.interpreter import (
     INSTRUCTION as INSTRUCTION,
