@@ -22,7 +22,7 @@ from acausal.codegen.instructions import (
 )
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.program import STATES, Program
-from acausal.codegen.unlike_formulas import together
+from acausal.codegen.unlike_formulas import joinable, joined
 from acausal.flattening import Integers
 from acausal.structure import (
     Accumulation,
@@ -34,9 +34,6 @@ from acausal.structure import (
     SparseLoop,
     TornLoop,
 )
-
-FEW_INSTANCES, MANY_FORMULAS = 8, 64
-"""So many formulas, of so few instances each, are computed together."""
 
 
 class _Generator:
@@ -66,17 +63,16 @@ class _Generator:
 
     def _may_wait(self, formula: ArrayFormula) -> bool:
         """Whether a formula may be computed with others: not one of time alone, whose array may have known edges."""
-        few = formula.size <= FEW_INSTANCES and not formula.arguments.modules
-        return few and bool(self.moving & formula.sources)
+        return bool(self.moving & formula.sources) and joinable(formula)
 
     def write_waiting(self) -> None:
         """Write the formulas that wait: together if they are many."""
         waiting, self.waiting = self.waiting, []
-        if len(waiting) >= MANY_FORMULAS:
-            formulas, nodes = zip(*waiting, strict=True)
-            one = together(formulas, self.sizes, self.parameters.size)
-            waiting = [(one, np.concatenate(nodes))]
-        for instruction, nodes in waiting:
+        instructions = joined([formula for formula, _ in waiting], self.sizes, self.parameters.size)
+        results = [nodes for _, nodes in waiting]
+        if len(instructions) < len(results):
+            results = [np.concatenate(results)]
+        for instruction, nodes in zip(instructions, results, strict=True):
             self._append(instruction, nodes)
 
     def _append(self, instruction: Instruction, *results: Integers) -> None:

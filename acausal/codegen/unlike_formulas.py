@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -30,13 +31,35 @@ Kind = tuple[sp.Expr, tuple[sp.Symbol, ...]]
 """A kind of operations: an expression, and its operands."""
 
 
+FEW_INSTANCES, MANY_FORMULAS = 8, 64
+"""So many formulas, of so few instances each, are computed together."""
+
+
+def joinable(formula: ArrayFormula) -> bool:
+    """Whether a formula may be one of many: it has few instances, and reads nothing but numbers."""
+    own = {*(s for s, _ in (*formula.arguments.variables, *formula.arguments.parameters)), time}
+    return formula.size <= FEW_INSTANCES and formula.expression.free_symbols <= own
+
+
+def joined(
+    formulas: Sequence[ArrayFormula], sizes: Sequence[int], n_parameters: int
+) -> list[ArrayFormula | UnlikeFormulas]:
+    """The formulas in order; where many may be computed together, they are."""
+    found: list[ArrayFormula | UnlikeFormulas] = []
+    for may, run in groupby(formulas, joinable):
+        some = list(run)
+        is_one = may and len(some) >= MANY_FORMULAS
+        found += [together(some, sizes, n_parameters)] if is_one else some
+    return found
+
+
 def together(
     formulas: Sequence[ArrayFormula], sizes: Sequence[int], n_parameters: int
 ) -> UnlikeFormulas:
     """The formulas as one instruction, whose results lie one behind the other.
 
     Arguments:
-        formulas: without modules; none reads another's result.
+        formulas: those that are `joinable`; none reads another's result.
         sizes: lengths of the arrays before them. n_parameters: of `Packed.values`.
     """
     levels = _Levels(sizes, n_parameters)

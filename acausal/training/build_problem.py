@@ -22,6 +22,7 @@ from acausal.simulation import (
     Adaptive,
     Scheme,
     announce_derivatives,
+    check_clocks,
     check_tolerances,
     for_adaptive_steps,
     for_fixed_steps,
@@ -77,7 +78,7 @@ def build_problem(
         DataError: if the data are not sufficient for the training.
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
-    system.pack(params)  # refuses what does not fit
+    packed = system.pack(params)  # refuses what does not fit
     names_of_networks = trained_networks(system, options.train, params)
     layout = system.layout
     trained_parameters = modifiers(
@@ -97,6 +98,7 @@ def build_problem(
         if len(record) < 2:
             raise DataError(f"{where} has fewer than two samples.")
         check_resolution(record.time, dtype, where)
+        check_clocks(system, system.blank(packed, record.time[0]), record.time[-1])
     check_step(data, options.dt)
     shooting = "fit" in by_record(data, options.x0)
     own_states = system.states[: system.reduced.n_independent]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.codegen import UnlikeFormulas, generator
+from acausal.codegen import UnlikeFormulas, unlike_formulas
 from tests.support.exported_c import ExportedC
 from tests.support.parts import Equations
 
@@ -44,7 +44,7 @@ def systems():
     """The model with its formulas together, and each for itself."""
     apart = ac.compile(unlike())
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(generator, "MANY_FORMULAS", len(PAIRS))
+        patch.setattr(unlike_formulas, "MANY_FORMULAS", len(PAIRS))
         together = ac.compile(unlike())
     return together, apart
 
