@@ -494,10 +494,14 @@ class System(LeavesCaches):
 
         if self.events is None:
             return self.values(t0, state(None), u0, packed)
-        blank = array(np.zeros(len(self.states)))
-        at = self.values(array(t0), blank, u0, packed)
-        start = self.initializer.discrete_start(packed)
-        return start_of(self.events, at, start, state, self.describe_discrete)._replace(t=t0)
+        at = self.blank(packed, t0, u0)
+        return start_of(self.events, at, state, self.describe_discrete)._replace(t=t0)
+
+    def blank(self, packed: Packed, t0: float, u0: ArrayLike | None = None) -> Values:
+        """The values at a time before states are found: these are zero, and discrete variables have their starts."""
+        u = array(np.zeros(len(self.inputs))) if u0 is None else u0
+        at = self.values(array(t0), array(np.zeros(len(self.states))), u, packed)
+        return at._replace(d=self.initializer.discrete_start(packed))
 
     def watching(self, names: Iterable[str]) -> System:
         """The model in which the library's conditions are events, where some parameters act through such alone.
@@ -534,9 +538,11 @@ class System(LeavesCaches):
         """
         if self.events is None:
             return values
-        values = values._replace(t=jnp.asarray(values.t, values.x.dtype))
-        start = self.initializer.discrete_start(values.packed).astype(values.x.dtype)
-        return start_of(self.events, values, start, lambda d: values.x, self.describe_discrete)
+        t, x = jnp.asarray(values.t, values.x.dtype), values.x
+        start = values._replace(
+            t=t, d=self.initializer.discrete_start(values.packed).astype(x.dtype)
+        )
+        return start_of(self.events, start, lambda d: x, self.describe_discrete)
 
     def initialize(
         self,

@@ -16,9 +16,11 @@ from acausal.codegen.instructions import (
     ArrayFormula as ArrayFormula,
     Instruction as Instruction,
     SolveTornLoop as SolveTornLoop,
+    UnlikeFormulas as UnlikeFormulas,
 )
 from acausal.codegen.interpreter import (
     INSTRUCTION as INSTRUCTION,
+    execute as execute,
     rates as rates,
     rates_and_read as rates_and_read,
     read as read,
@@ -60,4 +62,5 @@ from acausal.codegen.reading import (
     read_parameters as read_parameters,
 )
 from acausal.codegen.state_jacobian import StateJacobian as StateJacobian
+from acausal.codegen.unlike_formulas import joined as joined
 from acausal.codegen.values import Packed as Packed, Values as Values

@@ -20,6 +20,7 @@ from acausal.codegen.instructions import (
     Place,
     SolveSparseLoop,
     SolveTornLoop,
+    UnlikeFormulas,
 )
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.program import DISCRETE, INPUTS, STATES, ZERO, Program
@@ -124,8 +125,18 @@ class _Writer:
         return self._read(one.arguments, one.size, place[1])
 
     def formula(self, one: ArrayFormula, place: Place) -> None:
-        names = self._slots(one.arguments, one.size, place[1])
-        self._values[place] = _readable(one.expression.xreplace(names))
+        self._values[place] = self._formula(one, place[1])
+
+    def _formula(self, one: ArrayFormula, row: int) -> sp.Expr:
+        return _readable(one.expression.xreplace(self._slots(one.arguments, one.size, row)))
+
+    def unlike_needs(self, one: UnlikeFormulas, place: Place) -> list[Place]:
+        formula, row = one.at(place[1])
+        return self._read(formula.arguments, formula.size, row)
+
+    def unlike(self, one: UnlikeFormulas, place: Place) -> None:
+        formula, row = one.at(place[1])
+        self._values[place] = self._formula(formula, row)
 
     def accumulate_needs(self, one: Accumulate, place: Place) -> list[Place]:
         return self.places(one.values, one.terms * one.size)[place[1] :: one.size]
@@ -178,6 +189,7 @@ class _Writer:
 
 _RULES: dict[type, tuple[Callable[..., list[Place]], Callable[..., None]]] = {
     ArrayFormula: (_Writer.formula_needs, _Writer.formula),
+    UnlikeFormulas: (_Writer.unlike_needs, _Writer.unlike),
     Accumulate: (_Writer.accumulate_needs, _Writer.accumulate),
     SolveTornLoop: (_Writer.torn_loop_needs, _Writer.torn_loop),
     SolveSparseLoop: (_Writer.sparse_loop_needs, _Writer.sparse_loop),

@@ -21,13 +21,15 @@ from acausal.codegen.instructions import (
     SparseFormula,
 )
 from acausal.codegen.parameters import ParameterLayout
-from acausal.codegen.program import Program
+from acausal.codegen.program import STATES, Program
+from acausal.codegen.unlike_formulas import joinable, joined
 from acausal.flattening import Integers
 from acausal.structure import (
     Accumulation,
     Assignment,
     BlockEquation,
     ReducedModel,
+    SolvingStep,
     SparseGroup,
     SparseLoop,
     TornLoop,
@@ -46,6 +48,40 @@ class _Generator:
         self.guess[reduced.guessed] = reduced.guesses
         self.nodes: list[Integers] = []
         self.sizes: list[int] = []
+        self.instructions: list[Instruction] = []
+        self.first: list[int] = []
+        self.moving: set[int] = {STATES}
+        self.waiting: list[tuple[ArrayFormula, Integers]] = []
+
+    def write(self, step: SolvingStep) -> None:
+        """Write the instruction of a step, or let it wait for others that are computed together with it."""
+        instruction = _INSTRUCTION[type(step)](self, step)
+        if isinstance(instruction, ArrayFormula) and self._may_wait(instruction):
+            self.waiting.append((instruction, step.results[0]))
+        else:
+            self._append(instruction, *step.results)
+
+    def _may_wait(self, formula: ArrayFormula) -> bool:
+        """Whether a formula may be computed with others: not one of time alone, whose array may have known edges."""
+        return bool(self.moving & formula.sources) and joinable(formula)
+
+    def write_waiting(self) -> None:
+        """Write the formulas that wait: together if they are many."""
+        waiting, self.waiting = self.waiting, []
+        instructions = joined([formula for formula, _ in waiting], self.sizes, self.parameters.size)
+        results = [nodes for _, nodes in waiting]
+        if len(instructions) < len(results):
+            results = [np.concatenate(results)]
+        for instruction, nodes in zip(instructions, results, strict=True):
+            self._append(instruction, nodes)
+
+    def _append(self, instruction: Instruction, *results: Integers) -> None:
+        if self.moving & instruction.sources:
+            self.moving.update(range(len(self.nodes), len(self.nodes) + len(results)))
+        self.instructions.append(instruction)
+        self.first.append(len(self.nodes))
+        for nodes in results:
+            self.place(nodes)
 
     def place(self, nodes: Integers) -> None:
         """Lay the nodes' values out in the next array."""
@@ -55,7 +91,9 @@ class _Generator:
         self.sizes.append(len(nodes))
 
     def values(self, nodes: Integers) -> Gather:
-        """How to read values that are laid out."""
+        """How to read values, which are laid out or wait for it."""
+        if self.waiting and (self.source[nodes] < 0).any():
+            self.write_waiting()
         return gather(self.source[nodes], self.index[nodes], self.sizes)
 
     def _arguments(
@@ -182,17 +220,13 @@ def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
     zero = np.asarray([reduced.aliases.zero])
     for nodes in (reduced.states, reduced.inputs, zero, reduced.discrete):
         generator.place(nodes)
-    instructions: list[Instruction] = []
-    first: list[int] = []
     for step in reduced.steps:
-        first.append(len(generator.nodes))
-        instructions.append(_INSTRUCTION[type(step)](generator, step))
-        for nodes in step.results:
-            generator.place(nodes)
+        generator.write(step)
+    generator.write_waiting()
     return Program(
         tuple(generator.nodes),
-        tuple(instructions),
-        tuple(first),
+        tuple(generator.instructions),
+        tuple(generator.first),
         generator.values(reduced.rates) if len(reduced.rates) else None,
         reduced.rate_signs,
         reduced.input_signs,

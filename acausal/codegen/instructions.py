@@ -65,6 +65,54 @@ class ArrayFormula:
         """The right-hand side in words."""
         return f" = {self.expression}"
 
+    def text_at(self, row: int) -> str:
+        """That of every row."""
+        del row
+        return self.text
+
+    def found_with(self, place: Place) -> list[Place]:
+        """The values that are computed with this one: only itself."""
+        return [place]
+
+
+@dataclass(frozen=True)
+class UnlikeFormulas(LeavesCaches):
+    """Many formulas, whose values lie one behind the other in one array.
+
+    Attributes:
+        formulas: as they are written. None reads what another fills.
+        operations: what computes them, each an array, which may read those before it.
+        values: what of all these arrays are the formulas' values.
+        constants: numbers in the formulas.
+        first: how many arrays of the program the operations see; `Packed.values`, a zero, the time, and the constants
+            follow.
+    """
+
+    formulas: tuple[ArrayFormula, ...]
+    operations: tuple[ArrayFormula, ...]
+    values: Gather
+    constants: np.ndarray
+    size: int
+    first: int
+
+    outputs = 1
+    text = ", unlike formulas,"
+
+    @cached_property
+    def sources(self) -> set[int]:
+        """The arrays that are read."""
+        return {s for f in self.formulas for s in f.sources}
+
+    def at(self, row: int) -> tuple[ArrayFormula, int]:
+        """The formula that gives a row, and which of its instances that is."""
+        ends = np.cumsum([f.size for f in self.formulas])
+        i = int(np.searchsorted(ends, row, side="right"))
+        return self.formulas[i], row - int(ends[i]) + self.formulas[i].size
+
+    def text_at(self, row: int) -> str:
+        """The right-hand side of a row in words."""
+        return self.at(row)[0].text
+
     def found_with(self, place: Place) -> list[Place]:
         """The values that are computed with this one: only itself."""
         return [place]
@@ -91,6 +139,11 @@ class Accumulate:
     def sources(self) -> set[int]:
         """The arrays that are read."""
         return set(self.values.sources)
+
+    def text_at(self, row: int) -> str:
+        """That of every row."""
+        del row
+        return self.text
 
     def found_with(self, place: Place) -> list[Place]:
         """The values that are computed with this one: only itself."""
@@ -223,4 +276,7 @@ class SolveSparseLoop(LeavesCaches):
         return [(place[0], i) for i in range(self.size)]
 
 
-Instruction = ArrayFormula | Accumulate | SolveTornLoop | SolveSparseLoop
+Explicit = ArrayFormula | UnlikeFormulas | Accumulate
+"""Instructions that solve nothing."""
+
+Instruction = Explicit | SolveTornLoop | SolveSparseLoop

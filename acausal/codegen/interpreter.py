@@ -16,6 +16,7 @@ from acausal.codegen.instructions import (
     Instruction,
     SolveSparseLoop,
     SolveTornLoop,
+    UnlikeFormulas,
 )
 from acausal.codegen.program import DISCRETE, INPUTS, STATES, ZERO, Program
 from acausal.codegen.reading import Arrays, add_up, compute, read_elements
@@ -137,6 +138,16 @@ def _compute(formula: ArrayFormula, values: Values, arrays: Arrays) -> list[Arra
     return [compute(formula, values.packed, arrays, values.t)]
 
 
+def _compute_together(instruction: UnlikeFormulas, values: Values, arrays: Arrays) -> list[Array]:
+    numbers = values.packed.values
+    given = (jnp.zeros((), numbers.dtype), jnp.asarray(values.t, numbers.dtype))
+    constants = jnp.asarray(instruction.constants, numbers.dtype)
+    own = [*arrays[: instruction.first], numbers, *given, constants]
+    for operation in instruction.operations:
+        own.append(compute(operation, values.packed, own))
+    return [jnp.broadcast_to(read_elements(instruction.values, own), (instruction.size,))]
+
+
 def _accumulate(instruction: Accumulate, values: Values, arrays: Arrays) -> list[Array]:
     del values
     return [add_up(instruction, read_elements(instruction.values, arrays))]
@@ -144,6 +155,7 @@ def _accumulate(instruction: Accumulate, values: Values, arrays: Arrays) -> list
 
 _EXECUTE: dict[type, Callable[[Any, Values, Arrays], list[Array]]] = {
     ArrayFormula: _compute,
+    UnlikeFormulas: _compute_together,
     Accumulate: _accumulate,
     SolveTornLoop: solve_torn_loops,
     SolveSparseLoop: solve_sparse_loop,

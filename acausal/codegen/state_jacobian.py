@@ -70,10 +70,16 @@ class StateJacobian(LeavesCaches):
         if n <= FEW:
             return cls(n, None)
         most = int(np.clip(2 * DENSE * n**2, *LISTED))
-        needed = program.needed(program.rate_sources) if n > SMALL else []
-        loops = tuple(i for i in needed if _is_wide(reduced.steps[i]))
+        needed = set(program.needed(program.rate_sources) if n > SMALL else ())
+        number = [
+            program.filled_by[int(program.positions[0][s.results[0][0]])] for s in reduced.steps
+        ]
+        loops = tuple(i for i, s in enumerate(reduced.steps) if number[i] in needed and _is_wide(s))
         ways = ((), loops) if loops else ((),)
-        choices = [(jacobian_pattern(reduced, most, opened), opened) for opened in ways]
+        choices = [
+            (jacobian_pattern(reduced, most, opened), tuple(number[i] for i in opened))
+            for opened in ways
+        ]
         listed = [(*pattern, opened) for pattern, opened in choices if pattern is not None]
         if not listed:
             return cls(n, None)

@@ -31,7 +31,8 @@ def check_time_base(ts: np.ndarray, what: str, place: Place = sample) -> None:
     if ts.ndim != 1 or len(ts) < 2:
         raise DataError(f"{what} needs a time base of at least two samples, got shape {ts.shape}.")
     if not is_real(ts) or ts.dtype == bool:
-        raise DataError(f"{what} has a time base of {ts.dtype}; seconds are needed.")
+        remedy = ": give (t - t[0]) / np.timedelta64(1, 's')" if ts.dtype.kind == "M" else ""
+        raise DataError(f"{what} has a time base of {ts.dtype}; seconds are needed{remedy}.")
     i = _first(~np.isfinite(ts))
     if i is not None:
         raise DataError(f"{what} has a time that is {ts[i]} at {place(i)}.")

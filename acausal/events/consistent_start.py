@@ -87,19 +87,16 @@ def non_converged(events: Events, at: Values) -> list[int]:
 
 
 def before_events(
-    events: Events,
-    values: Values,
-    start: Float[Array, " n_discrete"],
-    initial_state: Callable[[Array], Float[Array, " n_states"]],
+    events: Events, start: Values, initial_state: Callable[[Array], Float[Array, " n_states"]]
 ) -> tuple[Float[Array, " n_states"], Float[Array, " n_discrete"]]:
     """States and discrete variables that agree, before what happens at the first time.
 
     Arguments as for `start_of`.
     """
-    d = start
-    x = initial_state(d)
+    assert start.d is not None
+    d, x = start.d, initial_state(start.d)
     for _ in range(STARTS):
-        found = _begun(events, values._replace(x=x, d=start))
+        found = _begun(events, start._replace(x=x))
         now, before = (initial_state(found), found), (x, d)
         x, d = now
         compared = known((now, before))
@@ -110,28 +107,27 @@ def before_events(
 
 def start_of(
     events: Events,
-    values: Values,
-    start: Float[Array, " n_discrete"],
+    start: Values,
     initial_state: Callable[[Array], Float[Array, " n_states"]],
     describe: Callable[[int], str],
 ) -> Values:
     """Initial values with the discrete variables that belong to them, behind the events at the first time.
 
     Arguments:
-        events: of the model. values: at the start; their states do not count.
-        start: the discrete variables' start values.
+        events: of the model.
+        start: the values at the start, with the discrete variables' start values; the states do not count.
         initial_state: finds the states for given discrete variables.
         describe: names the discrete variable at a place.
 
     Raises:
         InitializationError: if no discrete variables agree with the initial values.
     """
-    x, d = before_events(events, values, start, initial_state)
-    after = _fire_at_start(events, values._replace(x=x, d=d))
+    x, d = before_events(events, start, initial_state)
+    after = _fire_at_start(events, start._replace(x=x, d=d))
     if (converged := known(after.converged)) is not None and not bool(converged):
-        circle = listing(map(describe, non_converged(events, values._replace(x=x, d=d))), 6)
+        circle = listing(map(describe, non_converged(events, start._replace(x=x, d=d))), 6)
         raise InitializationError(
             f"At the start no discrete variables agree with the initial values: {circle or 'conditions'} change each "
             "other without end; break the circle by pre(...), or give other starts."
         )
-    return values._replace(x=after.x, d=after.d)
+    return start._replace(x=after.x, d=after.d)

@@ -31,6 +31,7 @@ from acausal.codegen import (
     Packed,
     Program,
     SolveTornLoop,
+    UnlikeFormulas,
     add_up,
     fill,
     read_elements,
@@ -192,6 +193,8 @@ def _parts(instruction: Instruction, first: int) -> Iterator[_Part]:
     """The formulas of an instruction; unknowns of loops stay unknown."""
     if isinstance(instruction, ArrayFormula | Accumulate):
         yield _Part(instruction, first)
+    elif isinstance(instruction, UnlikeFormulas):
+        yield from map(_Part, instruction.formulas)
     elif isinstance(instruction, SolveTornLoop):
         outer, n = instruction.arguments, instruction.outputs
         own = (*outer.variables, *outer.parameters, *outer.modules)

@@ -161,14 +161,13 @@ def _start(system: System, params: Mapping[str, Any]) -> tuple[np.ndarray, np.nd
     if system.events is None:
         return np.asarray(system.initial_state(params), float), np.zeros(0)
     u = system.input_values(None, "u0")
-    blank = system.values(0.0, np.zeros(len(system.states)), u, packed)
 
     def state(d: Any) -> Any:
         return system.initializer(packed, None, u, 0.0, d=d)
 
-    start = system.initializer.discrete_start(packed)
-    x = before_events(system.events, blank, start, state)[0]
-    return np.asarray(x, float), np.asarray(start, float)
+    blank = system.blank(packed, 0.0, u)
+    x = before_events(system.events, blank, state)[0]
+    return np.asarray(x, float), np.asarray(blank.d, float)
 
 
 def _discrete(system: System) -> Iterator[str]:

@@ -152,7 +152,9 @@ class Template(LeavesCaches):
         """The numbers that slots are multiplied by if the residual is such a sum, else None."""
         if self.parameters or self.modules or not self.variables:
             return None
-        factors = [self.residual.diff(s) for s in self.variables]
+        if any(a.free_symbols for a in self.residual.atoms(sp.Function, sp.Pow)):
+            return None
+        factors = [self.partial(i) for i in range(len(self.variables))]
         if not all(f.is_number and f != 0 for f in factors):
             return None
         terms = (f * s for f, s in zip(factors, self.variables, strict=True))

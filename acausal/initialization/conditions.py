@@ -19,9 +19,12 @@ from acausal.codegen import (
     Packed,
     ParameterLayout,
     Program,
+    UnlikeFormulas,
     Values,
     compute,
+    execute,
     formula_of,
+    joined,
     rates,
     read,
     run,
@@ -119,7 +122,7 @@ class Conditions(LeavesCaches):
             wanted = self._starts(at.packed, [(c.variable, 1) for c in starts])
             parts.append((signs * values - wanted) / nominal[[c.variable for c in starts]])
         arrays = self._arrays(at) if self._initial else ()
-        parts += [jnp.atleast_1d(compute(f, at.packed, arrays, at.t)) for f in self._initial]
+        parts += [jnp.atleast_1d(a) for one in self._initial for a in execute(one, at, arrays)]
         if resting:
             dx = rates(self.program, at)
             parts.append((dx / self.nominal)[np.asarray(resting)])
@@ -160,9 +163,9 @@ class Conditions(LeavesCaches):
         return x * np.asarray([sign for _, sign in members], dtype=float)
 
     @cached_property
-    def _initial(self) -> tuple[ArrayFormula, ...]:
+    def _initial(self) -> list[ArrayFormula | UnlikeFormulas]:
         """The initial equations; derivatives are read in further copies of the program's arrays."""
-        return tuple(
+        formulas = [
             formula_of(
                 group,
                 self.reduced,
@@ -172,7 +175,14 @@ class Conditions(LeavesCaches):
                 copies=group.template.orders,
             )
             for group in self.reduced.model.initial
-        )
+        ]
+        sizes = self.program.sizes * self._copies(formulas)
+        return joined(formulas, sizes, self.parameters.size)
+
+    def _copies(self, formulas: Sequence[ArrayFormula | UnlikeFormulas]) -> int:
+        """How many copies of the program's arrays formulas read."""
+        last = max((s for f in formulas for s in f.sources), default=0)
+        return 1 + last // len(self.program.nodes)
 
     def _arrays(self, at: Values) -> list[Any]:
         """The arrays of the program that initial equations read, and copies with derivatives along the vector field."""
@@ -192,7 +202,7 @@ class Conditions(LeavesCaches):
             return rate
 
         arrays: list[Any] = []
-        for _ in range(1 + max((s // n for s in sources), default=0)):
+        for _ in range(self._copies(self._initial)):
             arrays += value(jnp.asarray(at.t, dtype=float), at.x)
             value = along(value)
         return arrays

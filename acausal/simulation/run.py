@@ -78,28 +78,12 @@ class Run(NamedTuple):
             raise SimulationError(
                 f"At the start '{what}' is {float(d[place])}{period}.{self.said()}"
             )
-        self._check_clocks()
+        check_clocks(self.system, self.start, self.end)
 
     def said(self) -> str:
         """What modules say of numbers that are not finite, as a further sentence; empty where they say nothing."""
         said = said_by_modules(self.start.packed.modules)
         return f" {said}" if said else ""
-
-    def _check_clocks(self) -> None:
-        """Refuse clocks whose instants count as one: events miss those behind the first."""
-        events, at = self.system.events, self.start
-        if events is None or at.d is None or not events.ticks.any() or traced(at):
-            return
-        period = np.asarray(_periods(events.clocks, at))
-        longest = max(abs(self.begin), abs(self.end), self.end - self.begin)
-        fast = period < APART * longest
-        if fast.any():
-            i = int(np.argmax(fast))
-            clock = events.describe(int(np.flatnonzero(events.ticks)[i]))
-            raise SimulationError(
-                f"'{clock}' ticks every {float(period[i]):.3g} s, which times up to {longest:g} s cannot "
-                f"tell apart: give a period of {APART * longest:.3g} s or more, or a shorter span of time."
-            )
 
     def modes(self) -> NDArray[np.complex128]:
         """Eigenvalues of the Jacobian at the start, shape (n,), in 1/s.
@@ -172,6 +156,27 @@ class Run(NamedTuple):
 
         reason = explain_ahead(self.system, later, at, ahead)
         return "" if reason is None else f" There {reason}"
+
+
+def check_clocks(system: System, start: Values, end: float) -> None:
+    """Refuse clocks whose instants count as one between a start and an end [s]: events miss those behind the first.
+
+    Raises:
+        SimulationError: for them.
+    """
+    events = system.events
+    if events is None or start.d is None or not events.ticks.any() or traced(start):
+        return
+    period, begin = np.asarray(_periods(events.clocks, start)), float(np.asarray(start.t))
+    longest = max(abs(begin), abs(end), end - begin)
+    fast = period < APART * longest
+    if fast.any():
+        i = int(np.argmax(fast))
+        clock = events.describe(int(np.flatnonzero(events.ticks)[i]))
+        raise SimulationError(
+            f"'{clock}' ticks every {float(period[i]):.3g} s, which times up to {longest:g} s cannot "
+            f"tell apart: give a period of {APART * longest:.3g} s or more, or a shorter span of time."
+        )
 
 
 @compiled

@@ -5,7 +5,11 @@ It knows integers and templates; no JAX. Its graph algorithms know integers alon
 """
 
 from acausal.structure.algebraic_loops import BlockEquation as BlockEquation, TornLoop as TornLoop
-from acausal.structure.blocks import Accumulation as Accumulation, Assignment as Assignment
+from acausal.structure.blocks import (
+    Accumulation as Accumulation,
+    Assignment as Assignment,
+    SolvingStep as SolvingStep,
+)
 from acausal.structure.coloring import color_columns as color_columns, long_rows as long_rows
 from acausal.structure.elimination_order import (
     SETTINGS as SETTINGS,

@@ -153,7 +153,7 @@ class Equations:
 
     @cached_property
     def apart(self) -> list[str | None]:
-        """For every equation what keeps it apart from equal ones of other classes: its text, or None if these are many.
+        """For every equation what keeps it apart from equal ones of other classes: its text; None if they are many.
 
         A program computes equal equations side by side. Those of few classes are rather computed where they are needed.
         """
@@ -162,7 +162,10 @@ class Equations:
         for template, origin in dict.fromkeys(pairs):
             stating.setdefault(template, []).append(origin)
         text = {
-            (t, o): str(o) for t, own in stating.items() if len(own) <= FEW_VARIANTS for o in own
+            (t, o): str(o)
+            for t, own in stating.items()
+            if 1 < len(own) <= FEW_VARIANTS
+            for o in own
         }
         return list(map(text.get, pairs))
 

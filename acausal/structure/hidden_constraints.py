@@ -66,10 +66,10 @@ def _are_constant(template: Statement, columns: Iterable[int]) -> bool:
 @cache
 def _factor(template: Statement, column: int) -> Any:
     """The slot's factor if it is a number or a rational function of parameters, else None."""
-    if not template.is_solvable(column):
-        return None
     factor = template.partial(column)
     if not factor.free_symbols <= {*template.parameters} or not factor.is_rational_function():
+        return None
+    if not template.is_solvable(column):
         return None
     return factor.xreplace({f: sp.Rational(f) for f in factor.atoms(sp.Float)})
 

@@ -22,6 +22,7 @@ from acausal.simulation import (
     Adaptive,
     Scheme,
     announce_derivatives,
+    check_clocks,
     check_tolerances,
     for_adaptive_steps,
     for_fixed_steps,
@@ -80,7 +81,7 @@ def build_problem(
         DataError: if the data are not sufficient for the training.
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
-    system.pack(params)  # refuses what does not fit
+    packed = system.pack(params)  # refuses what does not fit
     names_of_networks = trained_networks(system, options.train, params)
     layout = system.layout
     trained_parameters = modifiers(
@@ -100,6 +101,7 @@ def build_problem(
         if len(record) < 2:
             raise DataError(f"{where} has fewer than two samples.")
         check_resolution(record.time, dtype, where)
+        check_clocks(system, system.blank(packed, record.time[0]), record.time[-1])
     even = sample_time(data.values()) if streamed is None else streamed.even
     check_step(even, options.dt)
     shooting = "fit" in by_record(data, options.x0)

@@ -48,8 +48,8 @@ def log_progress(progress: Progress) -> None:
 class CsvLog:
     """An observer that writes a line of a CSV file at every report: ``epoch`` and `SCALARS`.
 
-    A new training replaces the file, a resumed one continues it. If a line cannot be written, this warns once, and the
-    training continues.
+    A new training replaces the file, a resumed one continues it. If a line cannot be written, or something else writes
+    the file meanwhile, this warns once, and the training continues.
 
     Arguments:
         path: the file; folders are created.
@@ -61,7 +61,8 @@ class CsvLog:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = need_path(path, "CsvLog")
-        self._begun = self._warned = False
+        self._size: int | None = None
+        self._warned = False
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             before = _lines(self.path)
@@ -77,25 +78,28 @@ class CsvLog:
         values = [repr(float(read(progress))) for read in SCALARS.values()]
         try:
             self._begin(progress.epoch)
+            if not self.path.exists() or self.path.stat().st_size != self._size:
+                self._warn("was changed by something else", progress, ": lines are lost or mixed.")
             with self.path.open("a", newline="") as file:
                 file.write(_text([[str(progress.epoch), *values]]))
+            self._size = self.path.stat().st_size
         except OSError as error:
-            if not self._warned:
-                self._warned = True
-                warnings.warn(
-                    f"Log '{self.path}' cannot be written at epoch {progress.epoch}: "
-                    f"{reason(error)}. The training goes on.",
-                    stacklevel=user_level(),
-                )
+            self._warn("cannot be written", progress, f": {reason(error)}. The training goes on.")
+
+    def _warn(self, what: str, progress: Progress, more: str) -> None:
+        if not self._warned:
+            self._warned = True
+            text = f"Log '{self.path}' {what} at epoch {progress.epoch}{more}"
+            warnings.warn(text, stacklevel=user_level())
 
     def _begin(self, epoch: int) -> None:
         """Keep only the lines of earlier updates, before the first line is written."""
-        if self._begun:
+        if self._size is not None:
             return
         whole = [row for row in _lines(self.path)[1:] if len(row) == 1 + len(SCALARS)]
         kept = [row for row in whole if int(row[0]) < epoch]
         replace_file(self.path, _text([["epoch", *SCALARS], *kept]).encode())
-        self._begun = True
+        self._size = self.path.stat().st_size
 
 
 class TensorBoardLog:

@@ -8,11 +8,6 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -73,9 +68,8 @@ def page(
 def record(table: Table, found: Prediction) -> Figure:
     """What was measured and predicted, and the errors; the temperature of the case where it is measured."""
     heat = table.measures_the_case
-    figure, axes = plt.subplots(
-        2 + heat, 1, figsize=(11, 5 + 2 * heat), sharex=True, layout="constrained"
-    )
+    figure = Figure(figsize=(11, 5 + 2 * heat), layout="constrained")
+    axes = figure.subplots(2 + heat, 1, sharex=True)
     hours = table.time / HOUR
     axes[0].plot(hours, table.voltage, MEASURED, lw=2.2, alpha=0.4, label="measured")
     axes[0].plot(hours, found.voltage, PREDICTED, lw=1.0, label="predicted")
@@ -94,7 +88,8 @@ def record(table: Table, found: Prediction) -> Figure:
 
 def laws(params: Mapping[str, Any]) -> Figure:
     """The learned laws over charge, and over temperature at `engineer.DEGREES`."""
-    figure, axes = plt.subplots(2, 2, figsize=(11, 7), sharex=True, layout="constrained")
+    figure = Figure(figsize=(11, 7), layout="constrained")
+    axes = figure.subplots(2, 2, sharex=True)
     soc = np.linspace(0.0, 1.0, 201)
     curve = float(params["ocv.U_nominal"]) + jax.vmap(params["ocv.net"])(jnp.asarray(soc))
     entropy = jax.vmap(params["ocv.entropy"])(jnp.asarray(soc))

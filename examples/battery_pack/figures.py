@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 from acausal.reporting import LEARNED, TRUTH
@@ -19,7 +15,8 @@ def picture(found: Study) -> Figure:
     """Speed and voltage; the currents of a row's cells; charge and temperature of all cells."""
     driven, sol = found.drive, found.sol
     minutes, x = driven.t / 60, np.asarray(sol.x)
-    figure, axes = plt.subplots(2, 2, figsize=(11, 6), sharex=True, layout="constrained")
+    figure = Figure(figsize=(11, 6), layout="constrained")
+    axes = figure.subplots(2, 2, sharex=True)
     (top, currents), (charges, heats) = axes
     t, v = speed()
     known = t <= driven.t[-1]
@@ -28,7 +25,7 @@ def picture(found: Study) -> Figure:
     voltage = top.twinx()
     voltage.plot(minutes, sol["voltmeter.v"], color=LEARNED[0], lw=1)
     voltage.set(ylabel="voltage of the pack [V]")
-    shades = plt.get_cmap("viridis")(np.linspace(0, 0.9, driven.cells))
+    shades = colormaps["viridis"](np.linspace(0, 0.9, driven.cells))
     for k, shade in enumerate(shades, 1):
         currents.plot(
             minutes, -np.asarray(sol[f"rows[1].cells[{k}].resistance.i"]), color=shade, lw=0.7

@@ -5,11 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -65,7 +60,8 @@ def page(found: Study, out: Path) -> Path:
 
 def runs(found: Study) -> Figure:
     """Speed and torque of every run, measured and predicted by the fold without it."""
-    figure, axes = plt.subplots(len(RUNS), 2, figsize=(11, 2 * len(RUNS)), layout="constrained")
+    figure = Figure(figsize=(11, 2 * len(RUNS)), layout="constrained")
+    axes = figure.subplots(len(RUNS), 2)
     for row, (name, record) in zip(axes, found.crossed.records.items(), strict=True):
         for i, (ax, label) in enumerate(zip(row, ("speed [rad/s]", "torque [N.m]"), strict=True)):
             known = ~np.isnan(record.measured[:, i])
@@ -85,9 +81,8 @@ def runs(found: Study) -> Figure:
 
 def learned(found: Study) -> Figure:
     """Both laws over their arguments, beside the truth."""
-    figure, axes = plt.subplots(
-        2, 2, figsize=(11, 5.5), height_ratios=(2, 1), sharex="col", layout="constrained"
-    )
+    figure = Figure(figsize=(11, 5.5), layout="constrained")
+    axes = figure.subplots(2, 2, height_ratios=(2, 1), sharex="col")
     parts = (
         ("friction.net", laws.SPEEDS, laws.true_friction, "speed [rad/s]", "friction [N.m]"),
         ("cogging.net", laws.ANGLES, laws.true_cogging, "angle of the motor [rad]", "cogging [N.m]"),
@@ -112,7 +107,8 @@ def learned(found: Study) -> Figure:
 
 def offsets(found: Study) -> Figure:
     """The gauge's offset of every run, found and true."""
-    figure, ax = plt.subplots(figsize=(6, 3), layout="constrained")
+    figure = Figure(figsize=(6, 3), layout="constrained")
+    ax = figure.subplots()
     places = np.arange(len(RUNS))
     ax.bar(places, [run.offset for run in RUNS.values()], 0.7, color="#c9d3dc", label="truth")
     values = [found.fit.records[name].parameters[OFFSET] for name in RUNS]

@@ -6,11 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import jax
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 import sympy as sp
 from matplotlib.axes import Axes
@@ -86,7 +81,8 @@ def page(
 def record(measured: Mapping[str, np.ndarray], fits: Mapping[str, ac.Fit]) -> Figure:
     """The test record and the errors of its simulations."""
     data = study.record(measured["uVal"], measured["yVal"])
-    figure, axes = plt.subplots(2, 1, figsize=(11, 6), sharex=True, layout="constrained")
+    figure = Figure(figsize=(11, 6), layout="constrained")
+    axes = figure.subplots(2, 1, sharex=True)
     axes[0].plot(data.time, data[OUTPUT], color="#1d2733", lw=2.5, alpha=0.4, label="measured")
     for name in (WHITE, OURS):
         went = np.asarray(study.tested(measured, fits[name])[OUTPUT])
@@ -103,7 +99,8 @@ def sensor(fits: Mapping[str, ac.Fit], sure: Confidence, short: ac.Fit) -> Figur
     """Voltage over level: straight in the white box, learned, and a formula."""
     x = np.linspace(0.03, 0.17, 281)
     band, white = sure.laws[CURVE], fits[WHITE].params
-    figure, ax = plt.subplots(figsize=(7.5, 4.2), layout="constrained")
+    figure = Figure(figsize=(7.5, 4.2), layout="constrained")
+    ax = figure.subplots()
     volts = np.asarray(jax.vmap(fits[OURS].params[CURVE])(x))
     sigma = np.interp(x, band.x, band.sigma, left=np.nan, right=np.nan)
     ax.fill_between(
@@ -131,7 +128,8 @@ def outflow(fits: Mapping[str, ac.Fit]) -> Figure:
     sigma = np.interp(x, band.x, band.sigma, left=np.nan, right=np.nan)
     C_d, area, rho = (float(known[f"upper_hole.{n}"]) for n in ("C_d", "area", "rho"))
     hole = C_d * area * np.sqrt(2 * rho * np.abs(x)) * np.sign(x)
-    figure, ax = plt.subplots(figsize=(7.5, 4.2), layout="constrained")
+    figure = Figure(figsize=(7.5, 4.2), layout="constrained")
+    ax = figure.subplots()
     low, high = (1e3 * (flow + k * sigma) for k in (-2, 2))
     ax.fill_between(x, low, high, color=SHOWN[LEARNED], alpha=0.25, lw=0)
     ax.plot(x, 1e3 * flow, SHOWN[LEARNED], lw=1.6, label="learned")

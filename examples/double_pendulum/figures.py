@@ -6,11 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import jax
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -52,7 +47,8 @@ def page(path: Path, swings: Mapping[int, ac.Data], rows: Sequence[Row], fit: ac
 
 def friction(fit: ac.Fit) -> Figure:
     """Torques of both joints [N.m]."""
-    figure, axes = plt.subplots(1, 2, figsize=(10, 3.2), layout="constrained")
+    figure = Figure(figsize=(10, 3.2), layout="constrained")
+    axes = figure.subplots(1, 2)
     for ax, joint in zip(axes, JOINTS, strict=True):
         net = fit.params[f"{joint}.net"]
         speeds = np.linspace(0.0, float(np.max(fit.arguments[f"{joint}.net"])), 200)
@@ -66,7 +62,8 @@ def friction(fit: ac.Fit) -> Figure:
 def held(fit: ac.Fit, swing: ac.Data) -> Figure:
     """Angles of a swing, and how far they are off."""
     solution = study.simulated(fit.system, fit.params, swing)
-    figure, (above, below) = plt.subplots(2, 1, figsize=(10, 5), sharex=True, layout="constrained")
+    figure = Figure(figsize=(10, 5), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True)
     for name in ANGLES:
         above.plot(swing.time, swing[name], color=MEASURED, lw=3, alpha=0.4)
         above.plot(swing.time, np.asarray(solution[name]), lw=1, label=name)

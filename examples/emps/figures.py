@@ -6,11 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import jax
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -77,7 +72,8 @@ DRIFT = (
 
 def friction(training: study.Measured, fits: Mapping[str, ac.Fit]) -> Figure:
     """Measured and learned friction over the speed, and the part of the network with its confidence."""
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
+    figure = Figure(figsize=(12, 4), layout="constrained")
+    axes = figure.subplots(1, 3)
     true = study.smooth(training)
     force = model.GAIN * true[model.INPUT] - mass(fits[OURS]) * true["carriage.a"]
     axes[0].plot(true["carriage.v"][60:-60:5], force[60:-60:5], ".", ms=1.5, color="#b7c0c9")
@@ -119,9 +115,8 @@ def total(fit: ac.Fit, v: np.ndarray, s: np.ndarray | float) -> np.ndarray:
 
 def drift(training: study.Measured, test: study.Measured, fits: Mapping[str, ac.Fit]) -> Figure:
     """Errors of position over time, and the mean of what is left of the force in each lap."""
-    figure, axes = plt.subplots(
-        2, 2, figsize=(11, 6.2), sharex=True, sharey="row", layout="constrained"
-    )
+    figure = Figure(figsize=(11, 6.2), layout="constrained")
+    axes = figure.subplots(2, 2, sharex=True, sharey="row")
     for column, (name, record) in zip(
         axes.T, {"training": training, "test": test}.items(), strict=True
     ):

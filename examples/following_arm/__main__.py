@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 
 from examples.following_arm.model import ANGLE, MOTOR
 from examples.following_arm.study import compared, course
@@ -23,9 +19,8 @@ def main(folder: Path = Path("out/following_arm")) -> None:
     print(f"{'friction':10s}{'rms error':>14s}{'largest':>14s}")
     for name, outcome in found.items():
         print(f"{name:10s}{1e3 * outcome.rms:9.2f} mrad{1e3 * outcome.largest:9.2f} mrad")
-    figure, (angle, error, torque) = plt.subplots(
-        3, 1, figsize=(6.4, 5.4), sharex=True, layout="constrained"
-    )
+    figure = Figure(figsize=(6.4, 5.4), layout="constrained")
+    angle, error, torque = figure.subplots(3, 1, sharex=True)
     t = np.asarray(found["learned"].record.time)
     wanted = np.array([course(float(s)) for s in t])
     angle.plot(t, wanted, color="#8a949e", linewidth=3, label="course")

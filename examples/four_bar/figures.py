@@ -4,11 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -55,7 +50,8 @@ def page(path: Path, found: study.Study) -> None:
 
 def friction(found: study.Study) -> Figure:
     """The learned friction [N.m] and the true one."""
-    figure, ax = plt.subplots(figsize=(7, 3.4), layout="constrained")
+    figure = Figure(figsize=(7, 3.4), layout="constrained")
+    ax = figure.subplots()
     speeds = np.linspace(0.0, float(np.max(found.fit.arguments[FRICTION])), 200)
     ax.plot(speeds, study.truth(speeds), color=MEASURED, lw=4, alpha=0.35, label="true")
     ax.plot(speeds, study.curve(found.fit, speeds), color=LEARNED, label="learned")
@@ -69,7 +65,8 @@ def friction(found: study.Study) -> Figure:
 def torque(found: study.Study) -> Figure:
     """The motor's torque as measured, and how far both models are off."""
     record = found.records["held"]
-    figure, (above, below) = plt.subplots(2, 1, figsize=(9, 5), sharex=True, layout="constrained")
+    figure = Figure(figsize=(9, 5), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True)
     above.plot(record.time, record[TORQUE], color=MEASURED, lw=3, alpha=0.35, label="measured")
     for name, solution in found.solutions.items():
         simulated = np.asarray(solution[TORQUE])

@@ -5,11 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -42,7 +37,8 @@ def forces(fits: Mapping[str, ac.Fit]) -> Figure:
     """Learned spring and damper against the truth (the paper's figures 2 and 3a)."""
     true = true_forces()
     *_, last = fits.values()
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2))
+    figure = Figure(figsize=(11, 4.2))
+    axes = figure.subplots(1, 2)
     for ax, name, symbol in ((axes[0], SPRING, "z_s [m]"), (axes[1], DAMPER, "v_s [m/s]")):
         functions = {label: fit.remove_offset()[name] for label, fit in fits.items()}
         plot_learned(
@@ -56,7 +52,8 @@ def forces(fits: Mapping[str, ac.Fit]) -> Figure:
 
 def losses(fits: Mapping[str, ac.Fit], levels: Mapping[str, float]) -> Figure:
     """Losses over epochs (figure 3b)."""
-    figure, ax = plt.subplots(figsize=(8, 4.2))
+    figure = Figure(figsize=(8, 4.2))
+    ax = figure.subplots()
     plot_losses(ax, {label: fit.history for label, fit in fits.items()}, levels=levels)
     figure.tight_layout()
     return figure
@@ -70,7 +67,8 @@ def trajectories(fit: ac.Fit, ride: Ride, window: tuple[float, float] = (4.0, 8.
     }
     time = ride.clean.time
     shown = (time >= window[0]) & (time <= window[1])
-    figure, axes = plt.subplots(3, 1, figsize=(10, 7.5), sharex=True)
+    figure = Figure(figsize=(10, 7.5))
+    axes = figure.subplots(3, 1, sharex=True)
     rows = (("body.s", "z_b [m]"), ("body.v", "v_b [m/s]"), ("body.a", "a_b [m/s²]"))
     for ax, (name, label) in zip(axes, rows, strict=True):
         ax.plot(
@@ -102,7 +100,8 @@ def trajectories(fit: ac.Fit, ride: Ride, window: tuple[float, float] = (4.0, 8.
 
 def modifiers(fit: ac.Fit) -> Figure:
     """Modifiers of the parameters over epochs (figure 5)."""
-    figure, ax = plt.subplots(figsize=(8, 4.2))
+    figure = Figure(figsize=(8, 4.2))
+    ax = figure.subplots()
     plot_modifiers(ax, fit, targets=UNCERTAIN)
     figure.tight_layout()
     return figure

@@ -6,11 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import jax
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -94,7 +89,8 @@ def springs(fits: Mapping[str, ac.Fit]) -> Figure:
     x = np.linspace(-FAR, FAR, 401)
     pulls = {name: pull(fit, "mass.s", x) for name, fit in fits.items()}
     white = fits["white box (Duffing)"].params
-    figure, axes = plt.subplots(1, 2, figsize=(12, 4.6), layout="constrained")
+    figure = Figure(figsize=(12, 4.6), layout="constrained")
+    axes = figure.subplots(1, 2)
     for name, force in pulls.items():
         straight, cube = force - white["linear.c"] * x, force - pulls["white box (Duffing)"]
         axes[0].plot(x, 1e3 * straight, COLORS[name], label=name, lw=1.3)
@@ -127,7 +123,8 @@ def pull(fit: ac.Fit, state: str, x: np.ndarray) -> np.ndarray:
 def arrow(measured: Mapping[str, np.ndarray], fits: Mapping[str, ac.Fit]) -> Figure:
     """Errors over the arrow."""
     data = study.record(measured, study.TESTS["arrow_full"])
-    figure, axes = plt.subplots(2, 1, figsize=(11, 5.5), sharex=True, layout="constrained")
+    figure = Figure(figsize=(11, 5.5), layout="constrained")
+    axes = figure.subplots(2, 1, sharex=True)
     axes[0].plot(data.time, data[OUTPUT], lw=0.4, color="#1d2733")
     axes[0].set_ylabel("measured [V]")
     for name, fit in fits.items():
@@ -151,7 +148,8 @@ def confidence(
     """What is learned beside the white box by all trainings, and the networks of one of them."""
     told = fit.confidence().laws
     states = {"mass.s": "position [m]", "mass.v": "speed [m/s]"}
-    figure, axes = plt.subplots(2, 2, figsize=(12, 7), sharex="col", layout="constrained")
+    figure = Figure(figsize=(12, 7), layout="constrained")
+    axes = figure.subplots(2, 2, sharex="col")
     for (above, below), state, (name, formula) in zip(
         axes.T, states, formulas.items(), strict=True
     ):

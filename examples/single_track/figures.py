@@ -4,11 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -48,7 +43,8 @@ def page(path: Path, found: study.Study) -> None:
 
 def tyres(found: study.Study) -> Figure:
     """The learned curves of both axles, the true ones, and the slips of the campaign."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), sharey=True, layout="constrained")
+    figure = Figure(figsize=(9, 3.4), layout="constrained")
+    axes = figure.subplots(1, 2, sharey=True)
     for axis, axle in zip(axes, AXLES, strict=True):
         seen = np.asarray(found.fit.arguments[f"{axle}.net"])[:, 0]
         slips = np.linspace(0.0, 1.3 * float(seen.max()), 200)
@@ -66,7 +62,8 @@ def tyres(found: study.Study) -> Figure:
 
 def acceleration(found: study.Study) -> Figure:
     """The lateral acceleration as measured, and by both models."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), sharey=True, layout="constrained")
+    figure = Figure(figsize=(9, 3.4), layout="constrained")
+    axes = figure.subplots(1, 2, sharey=True)
     for axis, (name, record) in zip(axes, found.records.items(), strict=True):
         axis.plot(record.time, record[LATERAL], color=MEASURED, lw=3, alpha=0.35, label="measured")
         for what, runs in found.solutions.items():

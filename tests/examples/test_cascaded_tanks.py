@@ -90,6 +90,7 @@ def test_the_sensor_is_learned_in_a_few_updates() -> None:
 
 @REAL
 @pytest.mark.machines
+@pytest.mark.filterwarnings("ignore:.*limit of its modifier")  # some of the starts do
 def test_the_sensor_is_learned() -> None:
     (measured,) = load.load(DATA, "Cascaded_Tanks", ["dataBenchmark.mat"])
     tanks, moves = model.rising()

@@ -70,6 +70,9 @@ def test_an_example_runs_from_its_data_to_its_page(
 
 
 @pytest.mark.machines
+@pytest.mark.filterwarnings(
+    "ignore:.*limit of its modifier"
+)  # baselines that lack physics reach them
 @pytest.mark.parametrize("name", COMMANDS)
 def test_an_example_runs_in_full(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

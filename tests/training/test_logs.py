@@ -44,6 +44,18 @@ def test_a_csv_file_has_a_line_for_every_report(tmp_path: Path):
     assert table["diverged"].tolist() == [1, 1, 1]
 
 
+def test_two_writers_of_a_csv_file_are_said(tmp_path: Path):
+    one, other = (ac.CsvLog(tmp_path / "log.csv") for _ in range(2))
+    one(report(1))
+    other(report(1))
+    other(report(2))
+    with pytest.warns(
+        UserWarning, match=r"log.csv' was changed by something else at epoch 2: lines"
+    ):
+        one(report(2))
+    one(report(3))  # once
+
+
 def test_a_csv_file_goes_on_after_a_break(tmp_path: Path):
     path = tmp_path / "log.csv"
     log = ac.CsvLog(path)

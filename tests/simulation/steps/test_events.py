@@ -319,7 +319,9 @@ def test_an_event_may_fall_on_the_end_of_a_fixed_step(dt: float) -> None:
 
 def test_a_clock_that_is_too_fast_for_its_times_is_refused() -> None:
     system = ac.compile(Sampled(period=1e-12))
-    with pytest.raises(
-        ac.SimulationError, match=r"ticks every 1e-12 s, .*give a period of 2e-12 s or more"
-    ):
+    name, times = system.states[0], np.asarray([0.0, 0.25, 0.5])
+    refused = {"match": r"ticks every 1e-12 s, .*give a period of 2e-12 s or more"}
+    with pytest.raises(ac.SimulationError, **refused):
         ac.simulate(system, (0.0, 0.5))
+    with pytest.raises(ac.SimulationError, **refused):
+        ac.fit(system, ac.Data(times, {name: times}), [name], modifiers=["period"])
