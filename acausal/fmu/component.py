@@ -34,6 +34,7 @@ from acausal.modeling import (
     When,
     der,
     initial,
+    native_file,
     pre,
     sample,
     time,
@@ -72,7 +73,7 @@ class FMU(Component):
         DeclarationError: for a file that is not a sound FMU, an unknown name, or what is not supported.
     """
 
-    values = Module(doc="what the FMU computes between events, or in a communication step")
+    computed = Module(doc="what the FMU computes between events, or in a communication step")
     event = Module(doc="what the FMU does at an event, or with new inputs")
 
     def __init__(
@@ -85,6 +86,7 @@ class FMU(Component):
         step: float | None = None,
         open_loop: bool = False,
     ) -> None:
+        path = native_file(path)
         digest, folder = read(path)
         description = read_description(folder, path, values or {})
         of = interface(description, kind)
@@ -102,7 +104,7 @@ class FMU(Component):
             open_loop,
         )
         values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")
-        super().__init__(values=FMUFunction(part, values_of), event=FMUFunction(part, event))
+        super().__init__(computed=FMUFunction(part, values_of), event=FMUFunction(part, event))
         self._node.title = description.model
         self._part = part
         self._has_events = part.kind == "me" and has_events(part)
@@ -242,13 +244,15 @@ class FMU(Component):
         arguments = self._arguments(history, inputs)
         units = self._units(self.description.states)
         for i, (state, u) in enumerate(zip(states, units, strict=True)):
-            yield Eq(der(state), Conversion(u.unit, u.factor).to_model(self.values(i, *arguments)))
+            yield Eq(
+                der(state), Conversion(u.unit, u.factor).to_model(self.computed(i, *arguments))
+            )
         place = len(states)
         for name in part.results:
             given = self._arguments(history, self._needed(name, inputs))
             for i, result in enumerate(self._elements([name])):
                 if known[name].name not in self.description.states:
-                    found = self.values(place + i, *given)
+                    found = self.computed(place + i, *given)
                     yield Eq(result, known[name].conversion.to_model(found))
             place += known[name].size
         if self._has_events:
@@ -261,8 +265,8 @@ class FMU(Component):
         results = zip(self._elements(names), self._units(names), strict=True)
         return When(
             initial() | sample(0, self._part.step),
-            Eq(reached, self.values(0, *given)),
-            *[Eq(y, u.to_model(self.values(1 + i, *given))) for i, (y, u) in enumerate(results)],
+            Eq(reached, self.computed(0, *given)),
+            *[Eq(y, u.to_model(self.computed(1 + i, *given))) for i, (y, u) in enumerate(results)],
             Eq(self[HISTORY], self.event(0, *self._arguments(reached, inputs))),
         )
 
@@ -279,7 +283,7 @@ class FMU(Component):
     ) -> Iterable[Eq | When]:
         indicators = list(self[INDICATORS])
         for i, indicator in enumerate(indicators):
-            yield Eq(indicator, self.values(place + i, *arguments))
+            yield Eq(indicator, self.computed(place + i, *arguments))
         signs = [where(z > 0, 1, 0, events=True) for z in indicators]
         due = where(time >= self[NEXT], 1, 0, events=True)
         given = [*self._arguments(pre(self[HISTORY]), inputs), *signs, due]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -244,6 +245,18 @@ def test_a_model_with_an_fmu_is_not_exported(exported: Exported, tmp_path: Path)
     for write in (ac.export.fmu, ac.export.c, ac.export.onnx):
         with pytest.raises(ac.ExportError, match="'plant' is an FMU, whose equations nobody knows"):
             write(system, tmp_path / "model.fmu")
+
+
+def test_a_file_names_an_fmu_only_where_native_code_is_allowed(exported: Exported) -> None:
+    path = exported(Mass)
+    given = {"path": f'"{path.name}"', "values": {"f": 3.2}, "d": 2.5}
+    file = path.with_suffix(".json")  # paths are relative to it
+    part = {"class": "acausal.components.FMU", "with": given}
+    file.write_text(json.dumps({"components": {"plant": part}}))
+    with pytest.raises(ac.ModelError, match=r"components\.plant: .* load the model with allow_nat"):
+        ac.load(file)
+    known = ac.compile(ac.load(file, allow_native=True)).parameters()
+    assert (known["plant.f"], known["plant.d"]) == (3.2, 2.5)
 
 
 @pytest.mark.slow
