@@ -138,6 +138,9 @@ class FMU(Component):
     # -- declarations ------------------------------------------------------------------------------
 
     def _declare(self, chosen: Chosen) -> None:
+        def starts(v: FMUVariable) -> Any:
+            return _nested([v.conversion.to_model(s) for s in v.starts], v.shape or ())
+
         constant = [v for v in chosen.inputs if v.name in chosen.values]
         for v in (*chosen.parameters, *constant):
             name = name_of(v)
@@ -146,11 +149,11 @@ class FMU(Component):
             unit = v.conversion.unit
             declared = Parameter(unit=unit, min=low, max=high, shape=v.shape, doc=v.text)
             self._add_declaration(name, declared)
-            starts = _nested([v.conversion.to_model(s) for s in v.starts], v.shape or ())
-            self.modify(**{self._names[name]: chosen.values.get(v.name, starts)})
+            self.modify(**{self._names[name]: chosen.values.get(v.name, starts(v))})
         for v in chosen.inputs:
             if v.name not in chosen.values:
-                declared = Input(kind=_kind(v), unit=v.conversion.unit, shape=v.shape, doc=v.text)
+                given, unit = (None if v.start is None else starts(v)), v.conversion.unit
+                declared = Input(kind=_kind(v), default=given, unit=unit, shape=v.shape, doc=v.text)
                 self._add_declaration(v.name, declared)
         if self._part.kind == "cs":
             self._declare_held(chosen.results)

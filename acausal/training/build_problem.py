@@ -21,7 +21,7 @@ from acausal.simulation import (
     BDF,
     Adaptive,
     Scheme,
-    announce_derivatives,
+    announce_inputs,
     check_tolerances,
     for_adaptive_steps,
     for_fixed_steps,
@@ -106,7 +106,7 @@ def build_problem(
     )
     records = _with_guesses(system, records, params)
     for record in data.values():
-        announce_derivatives(system.inputs, record)
+        announce_inputs(system, record)
     loss = named(options.loss, targets)
     weights = weighting(options.record_weights, options.sample_weights, tuple(data), targets, loss)
     records = _weighted(records, weights, targets)

@@ -164,6 +164,17 @@ def test_start_values_are_parameters(exported: Exported) -> None:
         np.testing.assert_allclose(run["h"][-1], h - 9.81 * 0.005, rtol=1e-12)
 
 
+def test_an_input_without_a_source_is_the_start_value(exported: Exported) -> None:
+    alone, given = (ac.compile(ac.FMU(exported(Mass), v)) for v in ({}, {"f": 0.0}))
+    assert alone.input_defaults == {"f": 0.0}  # as our exports have it
+    expected = ac.simulate(given, 0.1, dt=1e-2)["s"]
+    np.testing.assert_array_equal(ac.simulate(alone, 0.1, dt=1e-2)["s"], expected)
+    record = ac.Data(np.linspace(0, 0.1, 11), {"s": expected})
+    with pytest.warns(UserWarning, match="The data lack 'f': 'f' is 0 throughout, the start value"):
+        again = ac.simulate(alone, 0.1, dt=1e-2, inputs=record)
+    np.testing.assert_array_equal(again["s"], expected)
+
+
 def test_starts_of_states_are_guesses_that_x0_and_rest_replace(exported: Exported) -> None:
     system = ac.compile(ac.FMU(exported(Mass), {"f": 3.2, "s": 0.3}))
     assert system.initial_state()[0] == 0.3
