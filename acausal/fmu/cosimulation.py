@@ -183,13 +183,13 @@ class Stepped(Computed):
         """The number of the history behind the step, and the outputs."""
         with self._lock:
             before, time = self._history(at), C.c_double.from_address(at).value
-            known = self._histories.events
+            known = self._histories.event
             event = PastEvent(before, time, b"", b"", b"", timed=True)
-            there = known[before].time == time
+            there = known(before).time == time
             if there:  # the step that led there
-                event = known[before]
+                event = known(before)
                 while not event.timed:
-                    event = known[event.before]
+                    event = known(event.before)
             after = self._histories.after(self._values_of_parameters(at), event)
             history, outputs = before if there else after.history, after.numbers
             C.c_double.from_address(into).value = history

@@ -12,12 +12,16 @@ from typing import Any, NamedTuple
 from weakref import finalize
 
 from acausal.fmu.instance import Instance
+from acausal.fmu.library import FMUError
 
 KEPT = 128
 """Instances of an FMU, for different parameters and histories, that are kept; the least used one goes."""
 
 RESULTS = 65_536
 """Events of which what is behind them is kept."""
+
+REMEMBERED = 262_144
+"""Events of an FMU that are kept, some 340 bytes each; the oldest goes, and its number with it."""
 
 
 class PastEvent(NamedTuple):
@@ -34,6 +38,10 @@ class PastEvent(NamedTuple):
     inputs: bytes
     signs: bytes
     timed: bool
+
+
+START = PastEvent(-1, -float("inf"), b"", b"", b"", False)
+"""What stands before the first event."""
 
 
 class AfterEvent(NamedTuple):
@@ -66,8 +74,9 @@ class Histories:
     ) -> None:
         self._most, self._begin, self._go = most, begin, go
         self._instances: OrderedDict[tuple[bytes, int], Instance] = OrderedDict()
-        self.events: list[PastEvent] = [PastEvent(-1, -float("inf"), b"", b"", b"", False)]
+        self._events: OrderedDict[int, PastEvent] = OrderedDict()
         self._numbers: dict[PastEvent, int] = {}
+        self._count = 0
         self._afters: OrderedDict[tuple[bytes, PastEvent], AfterEvent] = OrderedDict()
         finalize(self, _free_all, self._instances)
 
@@ -82,12 +91,36 @@ class Histories:
             self._instances.move_to_end(key)
         return found
 
+    def event(self, history: int) -> PastEvent:
+        """The last event of a history.
+
+        Raises:
+            FMUError: for one that was forgotten.
+        """
+        if history == 0:
+            return START
+        if history not in self._events:
+            raise FMUError(
+                f"FMU: a simulation has gone through more than {REMEMBERED:,} events of an FMU since, and what came "
+                "before is forgotten; simulate again, over a shorter time."
+            )
+        return self._events[history]
+
+    def _number(self, event: PastEvent) -> int:
+        """The number of the history that ends with an event."""
+        if event not in self._numbers:
+            self._count += 1
+            self._numbers[event], self._events[self._count] = self._count, event
+            if len(self._events) > REMEMBERED:
+                del self._numbers[self._events.popitem(last=False)[1]]
+        return self._numbers[event]
+
     def _again(self, parameters: bytes, history: int) -> Instance:
         """An instance that goes through a history, from where one has come already if possible."""
         chain: list[PastEvent] = []
         while history > 0 and (parameters, history) not in self._instances:
-            chain.append(self.events[history])
-            history = self.events[history].before
+            chain.append(self.event(history))
+            history = chain[-1].before
         instance = self._instances.pop((parameters, history), None) if chain else None
         if instance is None:
             again = len(self._instances) >= self._most
@@ -105,9 +138,7 @@ class Histories:
             for event in events:
                 after = self._go(instance, event)
                 instance.due = after.next
-                history = self._numbers.setdefault(event, len(self.events))
-                if history == len(self.events):
-                    self.events.append(event)
+                history = self._number(event)
                 self._keep((parameters, event), after._replace(history=history))
         except BaseException:
             instance.free()
@@ -119,7 +150,7 @@ class Histories:
         key = parameters, event
         if (known := self._afters.get(key)) is not None:
             return known
-        last = self.events[event.before]
+        last = self.event(event.before)
         same = (last.time, last.inputs, last.signs) == (event.time, event.inputs, event.signs)
         instance = self.instance(parameters, event.before)
         if same:  # it has gone through this event

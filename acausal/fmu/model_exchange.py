@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes as C
+from collections import OrderedDict
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import Differentiated, Numbers
 from acausal.fmu.description import REAL
 from acausal.fmu.exchange import Exchange
-from acausal.fmu.histories import AfterEvent, PastEvent
+from acausal.fmu.histories import RESULTS, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DiscardError, FMUError
 from acausal.fmu.part import Part
@@ -38,7 +39,7 @@ class Evaluated(Computed):
 
     def __init__(self, part: Part) -> None:
         super().__init__(part)
-        self._firsts: dict[bytes, tuple[float, bytes]] = {}
+        self._firsts: OrderedDict[bytes, tuple[float, bytes]] = OrderedDict()
         n, indicators = part.n, self.description.indicators
         width = 2 + n + part.n_inputs + part.n_parameters
         common: dict[str, Any] = {
@@ -80,6 +81,8 @@ class Evaluated(Computed):
             raise
         instance.due = min(first.next, NEVER)
         self._firsts[parameters] = instance.due, states.tobytes()
+        if len(self._firsts) > RESULTS:
+            self._firsts.popitem(last=False)
         return instance
 
     def _go(self, instance: Instance, event: PastEvent) -> AfterEvent:
@@ -124,6 +127,8 @@ class Evaluated(Computed):
             parameters = self._values_of_parameters(at)
             if parameters not in self._firsts:
                 self._at(parameters, 0)
+            if parameters not in self._firsts:  # they were forgotten, but not the instance
+                self._first(parameters, None).free()
             due, states = self._firsts[parameters]
             C.c_double.from_address(into).value = due
             C.memmove(into + BYTES, states, len(states))
