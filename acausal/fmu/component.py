@@ -42,7 +42,7 @@ from acausal.modeling import (
 )
 
 HISTORY, NEXT, INDICATORS = "fmu.history", "fmu.next", "fmu.indicators"
-REACHED = "fmu.reached"
+REACHED, COMPLETED = "fmu.reached", "fmu.completed"
 """Names of what the model knows of the FMU's events."""
 
 
@@ -65,7 +65,7 @@ class FMU(Component):
         observe: names of further variables that the model reads.
         kind: ``"me"``, model exchange, or ``"cs"``, co-simulation. By default the first of these that the FMU has.
         step: the communication step of co-simulation [s]; by default the one that the FMU suggests, or 1/500 of its
-            experiment.
+            experiment. In model exchange, the time after which the FMU is told that a step is completed.
         open_loop: nothing that is trained acts on the inputs of a co-simulation, which has no derivatives with respect
             to them: gradients take them as they are, and are not refused.
 
@@ -107,7 +107,7 @@ class FMU(Component):
         super().__init__(computed=FMUFunction(part, values_of), event=FMUFunction(part, event))
         self._node.title = description.model
         self._part = part
-        self._has_events = part.kind == "me" and has_events(part)
+        self._has_events = part.kind == "me" and (part.step > 0 or has_events(part))
         self._names: dict[str, str] = {}
         self._declare(chosen)
 
@@ -199,6 +199,9 @@ class FMU(Component):
             self._add_declaration(
                 HISTORY, Discrete(0, kind="int", doc="number of the FMU's history")
             )
+            if self._part.step:
+                doc = "how many steps the FMU was told to be completed"
+                self._add_declaration(COMPLETED, Discrete(0, kind="int", doc=doc))
             self._add_declaration(NEXT, Discrete(NEVER, unit="s", doc="the FMU's next time event"))
             n = self.description.indicators
             self._add_declaration(
@@ -292,6 +295,9 @@ class FMU(Component):
         given = [*self._arguments(pre(self[HISTORY]), inputs), *signs, due]
         yield Eq(self[HISTORY], self.event(0, *given))
         yield Eq(self[NEXT], self.event(1, *given))
+        if self._part.step:  # at an event, a step of the integration ends
+            count = self[COMPLETED]
+            yield When(sample(0, self._part.step), Eq(count, pre(count) + 1))
         if states:
             each = enumerate(zip(states, self._units(self.description.states), strict=True))
             jumps = [Reinit(x, u.to_model(self.event(2 + i, *given))) for i, (x, u) in each]

@@ -7,6 +7,8 @@ are events of its history, so that a step that is tried again, or another simula
 from __future__ import annotations
 
 import ctypes as C
+from collections.abc import Generator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -35,6 +37,7 @@ class Slave(Instance):
         values: its parameters. time: where it is. steps: how many it has gone. started: whether it is initialized.
     """
 
+    between = "EnterStepMode"
     values = b""
     time = 0.0
     steps = 0
@@ -52,11 +55,24 @@ class Slave(Instance):
         held, given = (np.frombuffer(b).copy() for b in (parameters, inputs))
         self.initialize(time, held.ctypes.data, given.ctypes.data if inputs else 0, again=False)
         self.time, self.started = time, True
+        if self.library.description.event_mode:
+            self.due = self.iterate(time).next
 
     def take(self, inputs: bytes) -> None:
-        """Set the inputs that hold from now on."""
+        """Set the inputs that hold from now on: at an event, where the FMU has some."""
         given = np.frombuffer(inputs).copy()
-        self._write(self._writes, given.ctypes.data, "an input")
+        with self._event():
+            self._write(self._writes, given.ctypes.data, "an input")
+
+    @contextmanager
+    def _event(self) -> Generator[None]:
+        """An event, at which something may be set."""
+        has_events = self.library.description.event_mode
+        if has_events:
+            self.call("EnterEventMode")
+        yield
+        if has_events:
+            self.due = self.iterate(self.time).next
 
     def advance(self, end: float) -> None:
         """Go to the next communication point.
@@ -67,9 +83,15 @@ class Slave(Instance):
         step = self._step_2 if self.library.is_2 else self._step_3
         for _ in range(RETURNS):
             self.check_time(end)
-            self.time = step(self.time, end - self.time)
-            if not self.time < end - 1e-9 * abs(end):
-                self.time, self.steps = end, self.steps + 1
+            target = self.due if self.time < self.due < end else end
+            self.time, event = step(self.time, target - self.time)
+            if not self.time < target - 1e-9 * abs(target):
+                self.time = target
+            if event or self.time == self.due:
+                with self._event():
+                    pass
+            if self.time == end:
+                self.steps += 1
                 return
         raise self._failure(end, "returns early for ever")
 
@@ -79,7 +101,7 @@ class Slave(Instance):
             f"FMU: '{self.library.description.model}' {what} at {time:g} s{said}; try a smaller step=."
         )
 
-    def _step_2(self, time: float, size: float) -> float:
+    def _step_2(self, time: float, size: float) -> tuple[float, bool]:
         step = self.library.function("DoStep", C.c_void_p, C.c_double, C.c_double, C.c_int)
         status = step(self.address, time, size, 1)
         if status == DISCARD:
@@ -92,27 +114,27 @@ class Slave(Instance):
                 self.last = last.value
             elif not last.value > time:
                 raise self._failure(time, "refuses the step")
-            return last.value
+            return last.value, False
         if status > FATAL:
             raise self._failure(time, "computes a step in the background, which is not supported,")
         self.check(status, f"the step at {time:g} s")
-        return time + size
+        return time + size, False
 
-    def _step_3(self, time: float, size: float) -> float:
+    def _step_3(self, time: float, size: float) -> tuple[float, bool]:
         flags, last = [C.c_bool() for _ in range(3)], C.c_double(time + size)
         kinds = (C.c_void_p, C.c_double, C.c_double, C.c_bool, *[C.c_void_p] * 4)
         step = self.library.function("DoStep", *kinds)
         status = step(
             self.address, time, size, True, *map(C.addressof, flags), C.addressof(last)
         )  # fmt: skip
-        _, ended, early = (flag.value for flag in flags)
+        event, ended, early = (flag.value for flag in flags)
         if ended:
             self.last = last.value
-            return last.value
+            return last.value, False
         if status == DISCARD:
             raise self._failure(time, "refuses the step")
         self.check(status, f"the step at {time:g} s")
-        return last.value if early else time + size
+        return last.value if early else time + size, event
 
 
 class Stepped(Computed):
@@ -157,12 +179,13 @@ class Stepped(Computed):
                 instance.free()
                 instance.make()
                 instance.start(event.time, instance.values, event.inputs)
-            return AfterEvent(0, np.inf, b"", 0)
+            return AfterEvent(0, instance.due, b"", 0)
         if instance.started:
             instance.advance(event.time)
         else:
             instance.start(event.time, instance.values, b"")
-        return AfterEvent(0, np.inf, self._outputs(instance, event.time).tobytes(), 0)
+        outputs = self._outputs(instance, event.time)
+        return AfterEvent(0, instance.due, outputs.tobytes(), 0)
 
     def _outputs(self, instance: Slave, time: float) -> Any:
         found = np.zeros(self._results.size)

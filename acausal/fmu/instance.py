@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ctypes as C
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -23,6 +23,17 @@ from acausal.fmu.library import (
     Variables,
     kind_of,
 )
+
+PASSES = 100
+"""An FMU that asks for so many updates of its discrete states at one instant asks for ever."""
+
+
+class Info(NamedTuple):
+    """What an FMU says of an event: the next time event (infinite: none), and whether its states have jumped."""
+
+    next: float
+    jumped: bool
+
 
 Settings = Sequence[tuple[FMUVariable, Any]]
 """Variables with values that are fixed when an FMU is made."""
@@ -42,6 +53,9 @@ class Instance:
     """
 
     due = last = float("inf")
+
+    between: ClassVar[str]
+    """The function that leaves event mode."""
 
     def __init__(
         self,
@@ -153,6 +167,41 @@ class Instance:
         if inputs:
             self._write(self._writes, inputs, "an input")
         self.call("ExitInitializationMode")
+
+    def iterate(self, time: float) -> Info:
+        """Update discrete states until nothing changes any more, and leave event mode.
+
+        Raises:
+            FMUError: if they change for ever.
+        """
+        jumped = False
+        for _ in range(PASSES):
+            flags, after = self._update()
+            needed, ends, _, values, defined = flags
+            jumped = jumped or values
+            if ends:
+                self.last = time
+            if ends or not needed:
+                break
+        else:
+            raise FMUError(
+                f"FMU: '{self.library.description.model}' finds no discrete states that agree: they change for ever."
+            )
+        self.call(self.between)
+        return Info(after if defined else np.inf, jumped)
+
+    def _update(self) -> tuple[list[bool], float]:
+        if self.library.is_2:
+            info = (C.c_int * 8)()  # five flags, padding, and the time as a double
+            update = self.library.function("NewDiscreteStates", C.c_void_p, C.c_void_p)
+            self.check(update(self.address, C.addressof(info)), "NewDiscreteStates")
+            after = C.c_double.from_address(C.addressof(info) + 24).value
+            return [bool(flag) for flag in info[:5]], after
+        flags, after = [C.c_bool() for _ in range(5)], C.c_double()
+        update = self.library.function("UpdateDiscreteStates", *[C.c_void_p] * 7)
+        status = update(self.address, *map(C.addressof, flags), C.addressof(after))
+        self.check(status, "UpdateDiscreteStates")
+        return [flag.value for flag in flags], after.value
 
     def _set_all(self, settings: Settings) -> None:
         for variable, value in settings:

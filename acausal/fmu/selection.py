@@ -26,17 +26,20 @@ def interface(description: Description, kind: Any) -> Interface:
 
 
 def communication_step(description: Description, kind: Interface, step: Any) -> float:
-    """The communication step of co-simulation [s]; 0 for model exchange.
+    """The communication step of co-simulation, or the time after which model exchange is told of a completed step [s].
+
+    0 where nobody is told. FMI 3.0 says which FMUs need it; by FMI 2.0 nearly all say that they do.
 
     Raises:
-        DeclarationError: for what is not a time above zero, or for model exchange.
+        DeclarationError: for what is not a time above zero, or for model exchange that need not be told.
     """
     if step is None:
-        return description.step if kind == "cs" else 0.0
-    if kind == "me":
+        told = description.completes and description.version == "3.0"
+        return description.step if kind == "cs" or told else 0.0
+    if kind == "me" and not description.completes:
         raise DeclarationError(
-            f"FMU: '{description.model}' is used by model exchange, which has no communication step; leave step= out, "
-            "or give kind='cs'."
+            f"FMU: '{description.model}' is used by model exchange, which has no communication step, and need not be "
+            "told of completed steps; leave step= out, or give kind='cs'."
         )
     if not isinstance(step, Real) or not 0 < float(step) < math.inf:
         raise DeclarationError(f"FMU: step={shown(step)} must be a time above zero, in seconds.")
