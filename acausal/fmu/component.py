@@ -17,7 +17,7 @@ from acausal.fmu.function import FMUFunction
 from acausal.fmu.model_exchange import NEVER
 from acausal.fmu.part import Part
 from acausal.fmu.registry import evaluated, has_events
-from acausal.fmu.selection import Chosen, communication_step, interface, name_of
+from acausal.fmu.selection import Chosen, communication_step, interface, memory_size, name_of
 from acausal.modeling import (
     HALF,
     Component,
@@ -42,12 +42,23 @@ from acausal.modeling import (
 )
 
 HISTORY, NEXT, INDICATORS = "fmu.history", "fmu.next", "fmu.indicators"
-REACHED, COMPLETED = "fmu.reached", "fmu.completed"
+REACHED, COMPLETED, TAKEN = "fmu.reached", "fmu.completed", "fmu.taken"
 """Names of what the model knows of the FMU's events."""
 
 
 class _Held(Discrete, Output):
     """An output that is read at communication points and held between them."""
+
+
+class _Earlier(Component):
+    """An input of a co-simulation as it was one communication point before."""
+
+    u, history, y = Input(), Input(kind="int"), _Held()
+
+    def equations(self) -> Iterable[Eq]:
+        """At a communication point the history changes."""
+        now = abs(self.history - pre(self.history)) > HALF
+        yield Eq(self.y, where(now, pre(self.u), pre(self.y), events=False))
 
 
 class FMU(Component):
@@ -66,8 +77,9 @@ class FMU(Component):
         kind: ``"me"``, model exchange, or ``"cs"``, co-simulation. By default the first of these that the FMU has.
         step: the communication step of co-simulation [s]; by default the one that the FMU suggests, or 1/500 of its
             experiment. In model exchange, the time after which the FMU is told that a step is completed.
-        open_loop: nothing that is trained acts on the inputs of a co-simulation, which has no derivatives with respect
-            to them: gradients take them as they are, and are not refused.
+        open_loop: nothing that is trained acts on the inputs of a co-simulation: gradients take them as they are.
+        memory: so many communication steps of a simulation gradients may go through inputs of a co-simulation. Each
+            instant then costs the FMU a step for each input and each instant before.
 
     Raises:
         DeclarationError: for a file that is not a sound FMU, an unknown name, or what is not supported.
@@ -85,6 +97,7 @@ class FMU(Component):
         kind: Literal["me", "cs"] | None = None,
         step: float | None = None,
         open_loop: bool = False,
+        memory: int = 0,
     ) -> None:
         path = native_file(path)
         digest, folder = read(path)
@@ -102,6 +115,7 @@ class FMU(Component):
             of,
             communication_step(description, of, step),
             open_loop,
+            memory_size(of, memory, open_loop=open_loop) if chosen.inputs else 0,
         )
         values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")
         super().__init__(computed=FMUFunction(part, values_of), event=FMUFunction(part, event))
@@ -170,8 +184,23 @@ class FMU(Component):
                 doc=v.text,
             )
             self._add_declaration(v.name, declared)
-        self._add_declaration(HISTORY, Discrete(0, kind="int", doc="number of the FMU's history"))
+        kind = _Held if self._part.memory else Discrete
+        self._add_declaration(HISTORY, kind(0, kind="int", doc="number of the FMU's history"))
         self._add_declaration(REACHED, Discrete(0, kind="int", doc="the same before new inputs"))
+        if self._part.memory:
+            self._declare_memory(self._part.n_inputs)
+
+    def _declare_memory(self, n: int) -> None:
+        """Inputs at the last communication point, and one part for each at a point before: many, but of one form."""
+        self._add_declaration(
+            TAKEN, _Held(shape=(n,), doc="inputs at the last communication point")
+        )
+        self.earlier = [_Earlier() for _ in range(n * (self._part.memory - 1))]
+        for source, part in zip(
+            [*self[TAKEN], *(p.y for p in self.earlier)], self.earlier, strict=False
+        ):
+            self.connect(self[HISTORY], part.history)
+            self.connect(source, part.u)
 
     def _declare_continuous(self, results: Sequence[FMUVariable]) -> None:
         known = self.description.variables
@@ -266,7 +295,10 @@ class FMU(Component):
 
     def _communication(self, inputs: list[Any]) -> When:
         """The step to a communication point, and the inputs that hold from there on."""
-        given = self._arguments(pre(self[HISTORY]), [0.0] * len(inputs))
+        taken = self._elements([TAKEN] if self._part.memory else [])
+        earlier = [part.y for part in self.earlier] if self._part.memory else []
+        before = [pre(u) for u in (*taken, *earlier)]
+        given = [*self._arguments(pre(self[HISTORY]), [0.0] * len(inputs)), *before]
         reached, names = self[REACHED], self._part.results
         results = zip(self._elements(names), self._units(names), strict=True)
         return When(
@@ -274,6 +306,7 @@ class FMU(Component):
             Eq(reached, self.computed(0, *given)),
             *[Eq(y, u.to_model(self.computed(1 + i, *given))) for i, (y, u) in enumerate(results)],
             Eq(self[HISTORY], self.event(0, *self._arguments(reached, inputs))),
+            *[Eq(u, new) for u, new in zip(taken, inputs, strict=False)],
         )
 
     def _needed(self, result: str, inputs: list[Any]) -> list[Any]:

@@ -7,6 +7,7 @@ are events of its history, so that a step that is tried again, or another simula
 from __future__ import annotations
 
 import ctypes as C
+from collections import OrderedDict
 from collections.abc import Generator
 from contextlib import contextmanager
 from typing import Any
@@ -14,8 +15,10 @@ from typing import Any
 import numpy as np
 
 from acausal.fmu.computed import Computed
-from acausal.fmu.derivatives import Differentiated
-from acausal.fmu.histories import AfterEvent, PastEvent
+from acausal.fmu.derivatives import STEP, Differentiated, Numbers
+from acausal.fmu.description import REAL
+from acausal.fmu.handlers import RefusedError
+from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DISCARD, FATAL, FMUError
 from acausal.fmu.part import Part
@@ -151,11 +154,17 @@ class Stepped(Computed):
         known = self.description.variables
         nominal = [[known[n].nominal] * known[n].size for n in part.results]
         self._sizes = np.asarray([s for sizes in nominal for s in sizes])
+        self._moves: OrderedDict[tuple[int, int, int], tuple[int, float]] = OrderedDict()
+        self._changeable = [
+            known[n].type in REAL for n in part.inputs for _ in range(known[n].size)
+        ]
         first = 2 + part.n_inputs
         width = first + part.n_parameters
+        scales = np.append(self._scales, np.tile(self._scales[2:first], part.memory))
         of_step = Differentiated(
-            self._step, width, 1 + part.n_values, range(first, width), self._scales, self._lock
-        )
+            self._step, len(scales), 1 + part.n_values, range(first, len(scales)), scales, self._lock,
+            fast=self._by_inputs,
+        )  # fmt: skip
         of_taking = Differentiated(self._take, width, 1, (), self._scales, self._lock)
         self.step, self.take = of_step.register(), of_taking.register()
         self.numbers = tuple(range(self.step, self.take + 1))
@@ -205,19 +214,88 @@ class Stepped(Computed):
     def _step(self, at: int, into: int) -> int:
         """The number of the history behind the step, and the outputs."""
         with self._lock:
-            before, time = self._history(at), C.c_double.from_address(at).value
-            known = self._histories.event
-            event = PastEvent(before, time, b"", b"", b"", timed=True)
-            there = known(before).time == time
-            if there:  # the step that led there
-                event = known(before)
-                while not event.timed:
-                    event = known(event.before)
+            before, event = self._history(at), self._step_at(at)
             after = self._histories.after(self._values_of_parameters(at), event)
-            history, outputs = before if there else after.history, after.numbers
+            history = after.history if event.before == before else before
+            outputs = after.numbers
             C.c_double.from_address(into).value = history
             C.memmove(into + BYTES, outputs, len(outputs))
         return 0
+
+    def _step_at(self, at: int) -> PastEvent:
+        """The step to the time of some arguments; if that is the last communication point, the one that led there."""
+        before, time = self._history(at), C.c_double.from_address(at).value
+        known = self._histories.event
+        if known(before).time != time:
+            return PastEvent(before, time, b"", b"", b"", timed=True)
+        event = known(before)
+        while not event.timed:
+            event = known(event.before)
+        return event
+
+    def _by_inputs(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:
+        """Outputs by earlier inputs: those of instances that have gone through inputs a little larger."""
+        part, rows = self.part, len(matrix)
+        first = 2 + part.n_inputs + part.n_parameters
+        columns = [c for c in wanted if c >= first]
+        if not columns:
+            return {}
+        at = given.ctypes.data
+        event, parameters = self._step_at(at), self._values_of_parameters(at)
+        self._need_memory(event.before)
+        outputs = np.frombuffer(self._histories.after(parameters, event).numbers)
+        for column in columns:
+            age, place = divmod(column - first, part.n_inputs)
+            moved, change = self._moved(event.before, age, place)
+            if change:
+                there = self._histories.after(parameters, event._replace(before=moved)).numbers
+                matrix[1:, column] = (np.frombuffer(there) - outputs) / change
+        return dict.fromkeys(columns, rows)
+
+    def _need_memory(self, history: int) -> None:
+        """Refuse a history of more steps than the model remembers the inputs of."""
+        steps, first = 0, history
+        while first > 0:
+            event = self._histories.event(first)
+            steps, first = steps + event.timed, event.before
+        if steps > self.part.memory:
+            raise RefusedError(
+                f"FMU: a gradient goes through the inputs of '{self.description.model}' over {steps} communication "
+                f"steps, and memory= is {self.part.memory}; give that of the whole simulation."
+            )
+
+    def _moved(self, history: int, age: int, place: int) -> tuple[int, float]:
+        """The history with one input a little larger, ``age`` communication points before its last; and by how much."""
+        known, moves, later = self._histories, self._moves, list[tuple[Any, PastEvent, PastEvent]]()
+        while (key := (history, age, place)) not in moves:
+            take = known.event(history)
+            if age == 0 or history == 0:
+                moves[key] = self._larger(history, take, place)
+                break
+            step = known.event(take.before)
+            while not step.timed:  # inputs that were replaced at once
+                step = known.event(step.before)
+            later.append((key, take, step))
+            history, age = step.before, age - 1
+        moved, change = moves[key]
+        for key, take, step in reversed(later):
+            if change:
+                moved = known.number(
+                    take._replace(before=known.number(step._replace(before=moved)))
+                )
+            moves[key] = moved, change
+        while len(moves) > REMEMBERED:
+            moves.popitem(last=False)
+        return moved, change
+
+    def _larger(self, history: int, take: PastEvent, place: int) -> tuple[int, float]:
+        if history == 0 or not self._changeable[place]:
+            return history, 0.0
+        inputs = np.frombuffer(take.inputs).copy()
+        before = inputs[place]
+        inputs[place] += STEP * max(self._scales[2 + place], abs(before))
+        moved = self._histories.number(take._replace(inputs=inputs.tobytes()))
+        return moved, float(inputs[place] - before)
 
     def _take(self, at: int, into: int) -> int:
         """The number of the history behind new inputs."""

@@ -48,9 +48,8 @@ class FMUFunction(eqx.Module):
         given = [jnp.asarray(v, kind) for v in values]
         if self.kind == "take":
             inputs = slice(2, 2 + part.n_inputs)
-            held = (
-                jax.lax.stop_gradient if part.open_loop else partial(_held, part.description.model)
-            )
+            known = part.open_loop or part.memory  # by what the model remembers of them
+            held = jax.lax.stop_gradient if known else partial(_held, part.description.model)
             given[inputs] = [held(u) for u in given[inputs]]
         found = _found(number, rows, *given)
         return jnp.take(found, jnp.asarray(which).astype(int))
@@ -70,9 +69,9 @@ def _refuse(model: str, at: tuple[Array], along: tuple[Any]) -> tuple[Array, Arr
     """How an FMU for co-simulation depends on earlier inputs is inside of it."""
     if not isinstance(along[0], SymbolicZero):
         raise SimulationError(
-            f"FMU: the gradient goes through the inputs of '{model}', and a co-simulation has no derivatives with "
-            "respect to its inputs: use it by model exchange, or, if nothing that is trained acts on them, say so: "
-            "ac.FMU(..., open_loop=True)."
+            f"FMU: the gradient goes through the inputs of '{model}', whose co-simulation depends on all earlier ones: "
+            "use it by model exchange; or say over how many communication steps gradients may go, ac.FMU(..., "
+            "memory=100); or, if nothing that is trained acts on them, ac.FMU(..., open_loop=True)."
         )
     return at[0], jnp.zeros_like(at[0])
 

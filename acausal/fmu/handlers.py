@@ -77,6 +77,10 @@ class _Frame(C.Structure):
     )  # fmt: skip
 
 
+class RefusedError(Exception):
+    """It ends the program that calls, where numbers that are not finite would not be explained: in derivatives."""
+
+
 _CALLS: list[Call] = []
 
 FAILURES: dict[int, str] = {}
@@ -128,7 +132,9 @@ def _handle(address: C._Pointer[_Frame]) -> int | None:  # pyright: ignore[repor
             _call_single(given.data, found.data, rows, width, height)
         return None
     except BaseException as error:  # Ctrl-C, for example: none may pass through C
-        message = f"{type(error).__name__} {error}"
+        message = (
+            f"{error}" if isinstance(error, RefusedError) else f"{type(error).__name__} {error}"
+        )
         described = _Error(C.sizeof(_Error), None, message.encode(), INTERNAL)
         return frame.api[0].error(C.addressof(described))
 
@@ -139,6 +145,8 @@ def _call(given: int, found: int, rows: int, width: int, height: int) -> None:
         which = int(number(given).value)
         try:
             _CALLS[which](given + BYTES, found)
+        except RefusedError:
+            raise
         except Exception as error:
             if str(error):
                 FAILURES[which] = str(error)

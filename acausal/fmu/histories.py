@@ -17,11 +17,8 @@ from acausal.fmu.library import FMUError
 KEPT = 128
 """Instances of an FMU, for different parameters and histories, that are kept; the least used one goes."""
 
-RESULTS = 65_536
-"""Events of which what is behind them is kept."""
-
 REMEMBERED = 262_144
-"""Events of an FMU that are kept, some 340 bytes each; the oldest goes, and its number with it."""
+"""Events of an FMU that are kept, and what is behind them; the oldest goes, and its number with it."""
 
 
 class PastEvent(NamedTuple):
@@ -106,7 +103,7 @@ class Histories:
             )
         return self._events[history]
 
-    def _number(self, event: PastEvent) -> int:
+    def number(self, event: PastEvent) -> int:
         """The number of the history that ends with an event."""
         if event not in self._numbers:
             self._count += 1
@@ -138,7 +135,7 @@ class Histories:
             for event in events:
                 after = self._go(instance, event)
                 instance.due = after.next
-                history = self._number(event)
+                history = self.number(event)
                 self._keep((parameters, event), after._replace(history=history))
         except BaseException:
             instance.free()
@@ -164,7 +161,7 @@ class Histories:
 
     def _keep(self, key: tuple[bytes, PastEvent], after: AfterEvent) -> AfterEvent:
         self._afters[key] = after
-        if len(self._afters) > RESULTS:
+        if len(self._afters) > REMEMBERED:
             self._afters.popitem(last=False)
         return after
 

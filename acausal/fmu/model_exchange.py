@@ -12,7 +12,7 @@ from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import Differentiated, Numbers
 from acausal.fmu.description import REAL
 from acausal.fmu.exchange import Exchange
-from acausal.fmu.histories import RESULTS, AfterEvent, PastEvent
+from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DiscardError, FMUError
 from acausal.fmu.part import Part
@@ -81,7 +81,7 @@ class Evaluated(Computed):
             raise
         instance.due = min(first.next, NEVER)
         self._firsts[parameters] = instance.due, states.tobytes()
-        if len(self._firsts) > RESULTS:
+        if len(self._firsts) > REMEMBERED:
             self._firsts.popitem(last=False)
         return instance
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
+from numbers import Integral, Real
 from typing import Any
 
 from acausal.errors import DeclarationError, nearest, shown
@@ -44,6 +44,28 @@ def communication_step(description: Description, kind: Interface, step: Any) -> 
     if not isinstance(step, Real) or not 0 < float(step) < math.inf:
         raise DeclarationError(f"FMU: step={shown(step)} must be a time above zero, in seconds.")
     return float(step)
+
+
+def memory_size(kind: Interface, memory: Any, *, open_loop: bool) -> int:
+    """The number of communication steps over which gradients go through inputs.
+
+    Raises:
+        DeclarationError: for what is no such number, or where it means nothing.
+    """
+    if isinstance(memory, bool) or not isinstance(memory, Integral) or memory < 0:
+        raise DeclarationError(
+            f"FMU: memory={shown(memory)} must be a number of communication steps."
+        )
+    if memory and (kind == "me" or open_loop):
+        why = (
+            "model exchange, which has gradients"
+            if kind == "me"
+            else "open_loop=True, which has none"
+        )
+        raise DeclarationError(
+            f"FMU: memory={memory} is for gradients through inputs of a co-simulation, not {why}."
+        )
+    return int(memory)
 
 
 class Chosen:

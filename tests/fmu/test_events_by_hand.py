@@ -65,7 +65,8 @@ def test_events_of_a_co_simulation_end_its_steps(counter: Counter) -> None:
 
 
 def test_clocks_are_refused(counter: Counter) -> None:
-    clock = '<Clock name="tick" valueReference="9" causality="input" intervalVariability="constant" intervalDecimal="1"/>'
+    interval = 'intervalVariability="constant" intervalDecimal="1"'
+    clock = f'<Clock name="tick" valueReference="9" causality="input" {interval}/>'
     path = counter(DESCRIPTION.replace("  </ModelVariables>", f"    {clock}\n  </ModelVariables>"))
     with pytest.raises(ac.DeclarationError, match=r"'Counter' has the clock 'tick'"):
         ac.FMU(path)

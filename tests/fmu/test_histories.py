@@ -20,7 +20,6 @@ class Nothing:
 
 def test_the_oldest_events_are_forgotten_and_said_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(histories, "REMEMBERED", 10)
-    monkeypatch.setattr(histories, "RESULTS", 4)
     after = AfterEvent(0, float("inf"), b"", 0)
     kept = Histories(4, lambda parameters, old: Nothing(), lambda instance, event: after)  # pyright: ignore[reportArgumentType]
     numbers = [0]
