@@ -94,7 +94,7 @@ def test_gradients_go_through_inputs_as_far_as_the_memory(masses: Callable[[str]
         expected = (last(-200.0 + h[0], 2.0 + h[1]) - last(-200.0 - h[0], 2.0 - h[1])) / 2e-3
         np.testing.assert_allclose(found, expected, rtol=1e-5)
     with pytest.raises(
-        jax.errors.JaxRuntimeError, match=r"over 8 communication steps, and memory= is 6"
+        jax.errors.JaxRuntimeError, match=r"over 9 communication steps, and memory= is 6"
     ):
         float(jax.grad(lambda k: last(k, 2.0, 9))(-200.0))
 
