@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes as C
+import math
 from collections import OrderedDict
 from typing import Any
 
@@ -114,6 +115,8 @@ class Evaluated(Computed):
     # -- functions ---------------------------------------------------------------------------------
 
     def _evaluate(self, at: int, into: int) -> int:
+        if not math.isfinite(sum((C.c_double * (self._behind // BYTES)).from_address(at))):
+            raise DiscardError  # many an FMU prints its complaints
         with self._lock:
             instance = self._at(self._values_of_parameters(at), self._history(at))
             time = C.c_double.from_address(at).value
