@@ -34,14 +34,9 @@ class Rig(ac.Component):
     def __init__(self, fmu: Path, friction: ac.Component | None = None) -> None:
         super().__init__()
         self.plant = ac.FMU(fmu, observe=["damper.v_rel"])
-        sizes = {
-            "width": 8,
-            "depth": 1,
-            "activation": "tanh",
-            "input_scale": 5.0,
-            "output_scale": 400.0,
-        }
-        learned = neural.Characteristic(odd=True, monotone=True, **sizes)
+        learned = neural.Characteristic(
+            odd=True, monotone=True, width=8, depth=1, activation="tanh", input_scale=5.0, output_scale=400.0
+        )  # fmt: skip
         self.friction = learned if friction is None else friction
         self.connect(self.plant["damper.v_rel"], self.friction.u)
         self.connect(self.load, self.plant.f)
