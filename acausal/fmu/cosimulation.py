@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from acausal._jax import HostError
 from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import STEP, Differentiated, Numbers
 from acausal.fmu.description import REAL
-from acausal.fmu.handlers import RefusedError
 from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DISCARD, FATAL, FMUError
@@ -259,7 +259,7 @@ class Stepped(Computed):
             event = self._histories.event(first)
             steps, first = steps + event.timed, event.before
         if steps > self.part.memory:
-            raise RefusedError(
+            raise HostError(
                 f"FMU: a gradient goes through the inputs of '{self.description.model}' over {steps} communication "
                 f"steps, and memory= is {self.part.memory}; give that of the whole simulation."
             )

@@ -12,8 +12,8 @@ import numpy as np
 from jax.custom_derivatives import SymbolicZero
 from jaxtyping import Array, Float
 
+from acausal._jax import HOST_FAILURES, call_host
 from acausal.errors import SimulationError
-from acausal.fmu.handlers import FAILURES, called
 from acausal.fmu.part import Part
 from acausal.fmu.registry import computed
 
@@ -56,7 +56,7 @@ class FMUFunction(eqx.Module):
 
     def why_nonfinite(self) -> str | None:
         """Why the FMU last gave no finite numbers, if it said so."""
-        found = [FAILURES.pop(n) for n in computed(self.part).numbers if n in FAILURES]
+        found = [HOST_FAILURES.pop(n) for n in computed(self.part).numbers if n in HOST_FAILURES]
         return found[0] if found else None
 
 
@@ -81,7 +81,7 @@ _held.defjvp(_refuse, symbolic_zeros=True)
 
 @partial(jax.custom_jvp, nondiff_argnums=(0, 1))
 def _found(number: int, rows: int, *given: Float[Array, ""]) -> Float[Array, " rows"]:
-    return called(number, jnp.stack(given), (rows,))
+    return call_host(number, jnp.stack(given), (rows,))
 
 
 def _along(number: int, rows: int, at: tuple[Array, ...], along: tuple[Any, ...]) -> Any:
@@ -101,7 +101,7 @@ _found.defjvp(_along, symbolic_zeros=True)
 def _jacobian(
     number: int, rows: int, moves: tuple[int, ...], given: Float[Array, " n"]
 ) -> Float[Array, "rows n"]:
-    return called(number + 1, _with_marks(moves, given), (rows, *given.shape))
+    return call_host(number + 1, _with_marks(moves, given), (rows, *given.shape))
 
 
 @_jacobian.defjvp
@@ -110,7 +110,7 @@ def _(
 ) -> tuple[Array, Array]:
     (given,) = at
     shape = (rows, *given.shape, *given.shape)
-    second = called(number + 2, _with_marks(moves, given), shape)
+    second = call_host(number + 2, _with_marks(moves, given), shape)
     return _jacobian(number, rows, moves, given), second @ along[0]
 
 
