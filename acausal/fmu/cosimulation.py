@@ -41,6 +41,7 @@ class Slave(Instance):
     """
 
     between = "EnterStepMode"
+    own = ("due", "last", "time", "steps", "started")
     values = b""
     time = 0.0
     steps = 0

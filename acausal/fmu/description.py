@@ -92,6 +92,7 @@ class Description:
         once: whether it can be instantiated only once in a process. directional: whether it has derivatives.
         step: the size of communication steps that it suggests for co-simulation.
         returns_early: whether a communication step may end before its end.
+        keeps_state: whether an instance can go back to a state that it had.
         completes: whether model exchange is told of completed steps. event_mode: whether co-simulation
             has event mode, and steps that may end at events.
     """
@@ -113,6 +114,7 @@ class Description:
     directional: bool
     step: float
     returns_early: bool
+    keeps_state: bool
     completes: bool
     event_mode: bool
 
@@ -239,6 +241,7 @@ def _described(read: Any, directional: bool) -> Description:
         directional=directional or bool(exchange and exchange.providesDirectionalDerivative),
         step=_step(experiment, cosimulation),
         returns_early=bool(getattr(cosimulation, "mightReturnEarlyFromDoStep", False)),
+        keeps_state=bool(can.canGetAndSetFMUstate),
         completes=bool(exchange and exchange.needsCompletedIntegratorStep),
         event_mode=bool(getattr(cosimulation, "hasEventMode", False))
         and cosimulation.canHandleVariableCommunicationStepSize,

@@ -17,6 +17,9 @@ from acausal.fmu.library import FMUError
 KEPT = 128
 """Instances of an FMU, for different parameters and histories, that are kept; the least used one goes."""
 
+STATES = 4096
+"""States of instances that are kept, so that these can go back."""
+
 REMEMBERED = 262_144
 """Events of an FMU that are kept, and what is behind them; the oldest goes, and its number with it."""
 
@@ -75,6 +78,7 @@ class Histories:
         self._numbers: dict[PastEvent, int] = {}
         self._count = 0
         self._afters: OrderedDict[tuple[bytes, PastEvent], AfterEvent] = OrderedDict()
+        self._kept: OrderedDict[tuple[bytes, int], Instance] = OrderedDict()
         finalize(self, _free_all, self._instances)
 
     def instance(self, parameters: bytes, history: int) -> Instance:
@@ -113,18 +117,38 @@ class Histories:
         return self._numbers[event]
 
     def _again(self, parameters: bytes, history: int) -> Instance:
-        """An instance that goes through a history, from where one has come already if possible."""
+        """An instance that goes through a history, from where one has come already, or can go back to, if possible."""
         chain: list[PastEvent] = []
-        while history > 0 and (parameters, history) not in self._instances:
+        instance = self._back(parameters, history)
+        while instance is None and history > 0 and (parameters, history) not in self._instances:
             chain.append(self.event(history))
             history = chain[-1].before
-        instance = self._instances.pop((parameters, history), None) if chain else None
+            instance = self._back(parameters, history)
+        if instance is None and chain:
+            instance = self._instances.pop((parameters, history), None)
         if instance is None:
             again = len(self._instances) >= self._most
             instance = self._begin(
                 parameters, self._instances.popitem(last=False)[1] if again else None
             )
+            self._keep_state(parameters, 0, instance)
         return self._through(parameters, instance, reversed(chain))[0]
+
+    def _back(self, parameters: bytes, history: int) -> Instance | None:
+        """An instance that has gone back to a history, if one can."""
+        instance = self._kept.get((parameters, history))
+        place = next((k for k, i in self._instances.items() if i is instance), None)
+        if instance is None or place is None or not instance.go_back((parameters, history)):
+            return None
+        return self._instances.pop(place)
+
+    def _keep_state(self, parameters: bytes, history: int, instance: Instance) -> None:
+        key = parameters, history
+        if instance.keep(key):
+            self._kept[key] = instance
+            if len(self._kept) > STATES:
+                old, last = self._kept.popitem(last=False)
+                last.forget(old)
 
     def _through(
         self, parameters: bytes, instance: Instance, events: Iterable[PastEvent]
@@ -137,6 +161,7 @@ class Histories:
                 instance.due = after.next
                 history = self.number(event)
                 self._keep((parameters, event), after._replace(history=history))
+                self._keep_state(parameters, history, instance)
         except BaseException:
             instance.free()
             raise

@@ -57,6 +57,9 @@ class Instance:
     between: ClassVar[str]
     """The function that leaves event mode."""
 
+    own: ClassVar[tuple[str, ...]] = ("due", "last")
+    """Attributes that belong to its state."""
+
     def __init__(
         self,
         library: SharedLibrary,
@@ -70,6 +73,7 @@ class Instance:
         self._reads = self._calls("Get", results)
         self._writes = self._calls("Set", inputs)
         self._sets = self._calls("Set", parameters)
+        self._kept: dict[Any, tuple[int, list[Any]]] = {}
         self.make()
 
     def make(self) -> None:
@@ -98,10 +102,44 @@ class Instance:
     def free(self) -> None:
         """Give it back."""
         if self.address:
+            for key in list(self._kept):
+                self.forget(key)
             free = self.library.function("FreeInstance", C.c_void_p, result=None)
             address, self.address = self.address, 0
             self.library.instances -= 1
             free(address)
+
+    def keep(self, key: Any) -> bool:
+        """Keep the present state under some name, if the FMU can; whether it was kept."""
+        if not self.library.description.keeps_state or key in self._kept:
+            return False
+        state = C.c_void_p()
+        keep = self.library.function(self._state("Get"), C.c_void_p, C.c_void_p)
+        if keep(self.address, C.addressof(state)) > WARNING:
+            return False
+        self._kept[key] = state.value or 0, [getattr(self, name) for name in self.own]
+        return True
+
+    def go_back(self, key: Any) -> bool:
+        """Go back to a state that was kept; whether there is one of that name."""
+        if key not in self._kept:
+            return False
+        state, values = self._kept[key]
+        go_back = self.library.function(self._state("Set"), C.c_void_p, C.c_void_p)
+        self.check(go_back(self.address, state), "going back to a state")
+        for name, value in zip(self.own, values, strict=True):
+            setattr(self, name, value)
+        return True
+
+    def forget(self, key: Any) -> None:
+        """Give a state back."""
+        if key in self._kept:
+            state = C.c_void_p(self._kept.pop(key)[0])
+            forget = self.library.function(self._state("Free"), C.c_void_p, C.c_void_p)
+            forget(self.address, C.addressof(state))
+
+    def _state(self, verb: str) -> str:
+        return f"{verb}FMU{'state' if self.library.is_2 else 'State'}"
 
     def check(self, status: int, what: str) -> None:
         """Refuse a status.
@@ -146,6 +184,8 @@ class Instance:
         yes, number = C.c_int if library.is_2 else C.c_bool, C.c_double
         self.last = np.inf
         if again:
+            for key in list(self._kept):
+                self.forget(key)
             self.call("Reset")
         structural = [s for s in self.settings if s[0].causality == STRUCTURAL]
         if structural:

@@ -14,6 +14,10 @@ class Nothing:
 
     due = float("inf")
 
+    def keep(self, key: object) -> bool:
+        """It keeps no states."""
+        return False
+
     def free(self) -> None:
         """Give it back."""
 

@@ -16,6 +16,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks
 from acausal.fmu.derivatives import Differentiated
+from acausal.fmu.exchange import Exchange
 from tests.export.test_c import Chain
 from tests.support.fmus import need_fmpy
 from tests.support.hybrid import Ball, Sampled, Thermostat
@@ -211,6 +212,26 @@ def test_gradients_go_through_events(exported: Exported) -> None:
 
     found, expected = (jax.grad(lambda e, s=s: loss(s, e))(0.8) for s in (system, native))
     np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+def test_instances_go_back_to_states_that_they_had(
+    exported: Exported, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times: list[float] = []
+    happen = Exchange.happen
+
+    def counted(self: Exchange, time: float) -> Any:
+        times.append(time)
+        return happen(self, time)
+
+    monkeypatch.setattr(Exchange, "happen", counted)
+    system = ac.compile(ac.FMU(exported(Mass), {"f": 1.0}, step=0.01))  # an event each
+    last = lambda d: ac.simulate(system, 0.2, dt=0.01, params={"d": d})["s"][-1]  # noqa: E731
+    found = float(jax.grad(last)(2.0))
+    assert (
+        len(times) < 12 * 20
+    )  # five instances go there, and back; else each goes there again from the start
+    np.testing.assert_allclose(found, (last(2.001) - last(1.999)) / 2e-3, rtol=1e-5)
 
 
 @pytest.mark.slow
