@@ -72,7 +72,8 @@ def _listed(variables: list[FMUVariable], *, with_values: bool) -> str:
 
 def _derivatives(part: Part) -> str:
     if part.kind == "cs":
-        return "with respect to parameters by difference quotients of instances"
+        inputs = f", and to inputs over {part.memory} steps," if part.memory else ""
+        return f"with respect to parameters{inputs} by difference quotients of instances"
     own = (
         "the FMU's directional derivatives"
         if part.description.directional

@@ -41,6 +41,7 @@ class Evaluated(Computed):
     def __init__(self, part: Part) -> None:
         super().__init__(part)
         self._firsts: OrderedDict[bytes, tuple[float, bytes]] = OrderedDict()
+        self._given = C.c_double * (self._behind // BYTES)
         n, indicators = part.n, self.description.indicators
         width = 2 + n + part.n_inputs + part.n_parameters
         common: dict[str, Any] = {
@@ -115,7 +116,7 @@ class Evaluated(Computed):
     # -- functions ---------------------------------------------------------------------------------
 
     def _evaluate(self, at: int, into: int) -> int:
-        if not math.isfinite(sum((C.c_double * (self._behind // BYTES)).from_address(at))):
+        if not math.isfinite(sum(self._given.from_address(at))):
             raise DiscardError  # many an FMU prints its complaints
         with self._lock:
             instance = self._at(self._values_of_parameters(at), self._history(at))
