@@ -177,6 +177,11 @@ class System(LeavesCaches):
         ]
         return frozenset(map(self.flat.layout.variable, held))
 
+    @property
+    def input_defaults(self) -> Mapping[str, float]:
+        """By name, what inputs are where nothing is given for them: of FMUs their start values."""
+        return self.flat.input_defaults
+
     def is_mode(self, name: str) -> bool:
         """Whether a variable is a truth value or a whole number that changes at events only."""
         index = self.flat.layout.find_variable(name)
@@ -593,7 +598,9 @@ class System(LeavesCaches):
     def input_values(
         self, u: Mapping[str, Numbers] | Numbers | None = None, argument: str = "u"
     ) -> Float[Array, " n_inputs"]:
-        """Inputs as an array, shape (n_inputs,), from a mapping by name (the rest zero), an array or None.
+        """Inputs as an array, shape (n_inputs,), from a mapping by name, an array or None.
+
+        The rest of a mapping are `input_defaults`, or zero.
 
         Arguments:
             u: the inputs.
@@ -609,7 +616,7 @@ class System(LeavesCaches):
                     raise DataError(
                         f"{argument}: '{name}' is not an input; {nearest(name, self.inputs)}"
                     )
-            numbers: Any = [given.get(name, 0.0) for name in self.inputs]
+            numbers: Any = [given.get(n, self.input_defaults.get(n, 0.0)) for n in self.inputs]
         else:
             numbers = u
         if not is_real(numbers):

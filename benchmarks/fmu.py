@@ -16,7 +16,8 @@ import jax
 import numpy as np
 
 import acausal as ac
-from acausal.fmu import handlers, loaded
+from acausal._jax import host_calls
+from acausal.fmu import registry
 
 STEPS = 20_000
 TIMES = 5
@@ -59,7 +60,7 @@ def main() -> None:
         return ac.simulate(system, end, dt=1e-6, solver="euler", inputs=inputs, params=p).x[-1, 0]
 
     calls = 0
-    kept = handlers._call
+    kept = host_calls._call
 
     def counted(given: int, found: int, rows: int, width: int, height: int) -> None:
         nonlocal calls
@@ -67,16 +68,16 @@ def main() -> None:
         kept(given, found, rows, width, height)
 
     value = best(lambda: run(params))
-    handlers._call = counted
+    host_calls._call = counted
     jax.block_until_ready(run(params))
-    handlers._call = kept
-    computed = loaded.computed(model._part)
+    host_calls._call = kept
+    computed = registry.computed(model._part)
     given, found = np.zeros(2 + model._part.n + 99), np.zeros(model._part.n_values)
     starts = np.frombuffer(computed.defaults())
     at = 2 + model._part.n + model._part.n_inputs
     given[at : at + len(starts)] = starts
     pair = given.ctypes.data, found.ctypes.data
-    assert isinstance(computed, loaded.Evaluated)
+    assert isinstance(computed, registry.Evaluated)
     alone = best(lambda: [computed._evaluate(*pair) for _ in range(1000)]) / 1000
     print(f"{model.description.model}, {len(params)} parameters, {STEPS} Euler steps")
     print(f"  {value / STEPS * 1e6:8.2f} us a step, {calls / STEPS:.2f} calls a step")

@@ -22,6 +22,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
+import acausal as ac
+
 from .modelica import ALSO_CALLED, ENUMERATIONS, MODELICA, NOT_COVERED
 
 __all__ = ["ALSO_CALLED", "ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
@@ -44,6 +46,8 @@ def __getattr__(name: str) -> Any:
     """The packages are imported when they are asked for."""
     if name in PACKAGES:
         return import_module(f"{__name__}.{name}")
+    if name == "FMU":  # for files, which name it as a class of the library
+        return ac.FMU
     if name in ("FUNCTIONS", "RECORDS"):
         return getattr(import_module(f"{__name__}.records"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

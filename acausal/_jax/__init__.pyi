@@ -16,6 +16,12 @@ from .dtypes import (
     is_real as is_real,
     precision as precision,
 )
+from .host_calls import (
+    HOST_FAILURES as HOST_FAILURES,
+    HostError as HostError,
+    call_host as call_host,
+    register_host as register_host,
+)
 from .jacobian import value_and_jacobian as value_and_jacobian
 from .keys import as_key as as_key
 from .primitives import (

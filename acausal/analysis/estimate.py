@@ -38,7 +38,7 @@ from acausal.errors import DataError, nearest, need_compiled, need_whole, shown
 from acausal.modeling import names_in
 from acausal.simulation import (
     Steps,
-    announce_derivatives,
+    announce_inputs,
     evaluate_all,
     functions_of_time,
     integrate,
@@ -267,8 +267,8 @@ def _lay_out(
     """The model along the rows, what is measured there, and the values at the start."""
     ts = rows_of(data.time)
     span = float(ts[0]), float(ts[-1])
-    functions = functions_of_time(system.inputs, data, span, held=system.held_inputs)
-    announce_derivatives(system.inputs, data)
+    functions = functions_of_time(system, data, span)
+    announce_inputs(system, data)
     steps = Steps(
         jnp.asarray(ts[:-1]), jnp.asarray(np.diff(ts)), polynomials_over_steps(functions, ts)
     )

@@ -78,6 +78,8 @@ def add_model(parser: ArgumentParser, several: str | None = None) -> None:
         metavar="MODULE",
         help="a library of components that the model's file names; can be repeated",
     )
+    words = "parts of the model's file may run native code, FMUs; only for files from people whom you trust"
+    parser.add_argument("--allow-native", action="store_true", help=words)
     words = "another part in the place of one, such as suspension.damper=neural.Resistance"
     add_by_name(parser, "--replace", text=words, read=text_by_name, metavar="PART=CLASS")
 

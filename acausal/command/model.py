@@ -21,7 +21,9 @@ def system_of(args: Namespace, text: str | None = None) -> ac.System:
     Raises:
         ac.ModelError: where there is no such model, or it is wrong.
     """
-    model = model_of(args.model if text is None else text, args.library)
+    libraries = [_module(library) for library in args.library]
+    options: dict[str, Any] = {"libraries": libraries, "allow_native": args.allow_native}
+    model = model_of(args.model if text is None else text, options)
     for path, name in args.replace:
         whole = model.model if isinstance(model, ac.System) else model
         model = whole.replace(path, _part(name, args.library))
@@ -33,22 +35,25 @@ def title_of(system: ac.System) -> str:
     return system.model._node.title or type(system.model).__name__
 
 
-def model_of(text: str, libraries: list[str]) -> ac.Component | ac.System:
+def model_of(text: str, options: dict[str, Any]) -> ac.Component | ac.System:
     """A model by its file, ``file.mo:Package.Model`` or ``module:Class``; an FMU runs native code that it brings along.
+
+    Arguments:
+        options: of `ac.load`.
 
     Raises:
         ac.ModelError: where there is none.
     """
     module, colon, name = text.rpartition(":")
     if colon and Path(module).suffix == ".mo":
-        return ac.load(module, name, libraries=[_module(library) for library in libraries])
+        return ac.load(module, name, **options)
     if colon and not Path(text).exists():
         return _made(text, _module(module), name)
     if Path(text).suffix == ".py":
         raise ac.ModelError(f"'{text}' is a Python file; name the class in it, too: {text}:Class")
     if Path(text).suffix == ".fmu":
         return ac.FMU(text)
-    return ac.load(text, libraries=[_module(library) for library in libraries])
+    return ac.load(text, **options)
 
 
 def parameters_of(args: Namespace, system: ac.System) -> dict[str, Any]:

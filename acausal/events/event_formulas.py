@@ -89,6 +89,16 @@ class Events(LeavesCaches):
         """Which conditions are clocks', shape (n_guards,)."""
         return self._each([g.ticks for g in self.guards])
 
+    @cached_property
+    def n_through(self) -> int:
+        """How many discrete variables may read others, of the same event, by way of variables that are computed."""
+
+        def reads(update: Update) -> bool:
+            needed = self.program.needed(self.program.in_copy(update.formula.sources, 0))
+            return any(DISCRETE in self.program.instructions[i].sources for i in needed)
+
+        return sum(int((~self.exact[u.places]).sum()) for u in self.updates if reads(u))
+
     def _each(self, flags: Sequence[bool]) -> np.ndarray:
         return np.repeat(np.asarray(flags, bool), [g.formula.size for g in self.guards])
 

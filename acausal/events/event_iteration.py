@@ -145,8 +145,15 @@ def after_pass(events: Events, at: Values, this: Pass) -> tuple[Array, Array]:
     """
     before = at._replace(x=this.x, d=this.d)
     now = before._replace(d=this.found)
-    smooth = updated(events, now, before, this.found[: events.n_guards])
-    d = jnp.where(events.exact, this.found, smooth)
+
+    def smooth(_: ArrayLike, d: Array) -> Array:
+        found = updated(events, now._replace(d=d), before, this.found[: events.n_guards])
+        return jnp.where(events.exact, this.found, found)
+
+    d = smooth(0, this.found)
+    # The values are found; each evaluation more carries derivatives on by way of computed variables.
+    if more := min(events.n_through, PASSES):
+        d = lax.fori_loop(0, more, smooth, d)
     return jumped(events, now._replace(d=d), before), d
 
 

@@ -54,7 +54,7 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
             declared.start_given[variable] = d.start in modifiers
             key = form_number, index
             if key not in start_of_form:
-                value = _element(getattr(component, cast(str, d.start)), path, d.name)
+                value = element(getattr(component, cast(str, d.start)), path, d.name)
                 if not is_bound(value):
                     declared.start[variable] = float(value)
                     continue
@@ -123,7 +123,7 @@ def _modified_starts(layout: Layout, number: int, found: VariableAttributes) -> 
                 found.state[variable] = STATE_SELECT.index(modifier.state) + 0.5
             if modifier.value is not None:
                 found.start_given[variable] = True
-                value = _element(modifier.value, form.variables[index][0], name)
+                value = element(modifier.value, form.variables[index][0], name)
                 if is_bound(value):
                     yield bind(layout, variable, value, layout.variable)
                 else:
@@ -165,17 +165,22 @@ def _indices(form: Form, name: str) -> Iterator[int]:
         yield from (i for path, i in form.variable_index.items() if path.startswith(f"{name}["))
 
 
-def _element(value: Any, path: str, name: str) -> Any:
+def element(value: Any, path: str, name: str) -> Any:
+    """The value of one element, ``name[1]``, of an array's, or the value of all of them.
+
+    Raises:
+        DeclarationError: where there is none.
+    """
     if not isinstance(value, list | tuple | np.ndarray):
         return value
     if path == name:
         raise DeclarationError(
             f"'{name}' is one variable; its start is a number, not {shown(value)}"
         )
-    element: Any = value
+    found: Any = value
     try:
         for i in path[len(name) + 1 : -1].split(","):
-            element = element[int(i) - 1]
+            found = found[int(i) - 1]
     except (IndexError, TypeError):
         raise DeclarationError(f"the start of '{name}' has no element for {path}") from None
-    return element
+    return found

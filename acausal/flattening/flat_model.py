@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.flattening.attributes import variable_attributes
+from acausal.flattening.attributes import element, variable_attributes
 from acausal.flattening.bindings import Binding, parameter_aliases
 from acausal.flattening.connections import (
     connection_groups,
@@ -25,7 +25,7 @@ from acausal.flattening.silent import Silent
 from acausal.flattening.stated import Stated
 from acausal.flattening.template import Integers
 from acausal.flattening.values import module_values, parameter_values
-from acausal.modeling import PYTHON, Budget, Component, Discrete, spending
+from acausal.modeling import PYTHON, Budget, Component, Discrete, Input, spending
 
 
 @dataclass(frozen=True)
@@ -96,6 +96,17 @@ class FlatModel(LeavesCaches):
         guards = [g.targets for g in self.events.guards]
         watched = np.concatenate([np.zeros(0, np.int64), *guards])
         return np.concatenate([watched, np.setdiff1d(declared, [*watched, *self.given])])
+
+    @cached_property
+    def input_defaults(self) -> dict[str, float]:
+        """By name, what inputs of the model are where nothing is given for them."""
+        names = map(self.layout.variable, self.inputs.tolist())
+        declared = map(self.layout.variable_declaration, self.inputs.tolist())
+        return {
+            name: float(element(d.default, name, name.rpartition("[")[0] or name))
+            for name, d in zip(names, declared, strict=True)
+            if isinstance(d, Input) and d.default is not None
+        }
 
     @cached_property
     def parameter_aliases(self) -> Integers:

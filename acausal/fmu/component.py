@@ -17,7 +17,7 @@ from acausal.fmu.function import FMUFunction
 from acausal.fmu.model_exchange import NEVER
 from acausal.fmu.part import Part
 from acausal.fmu.registry import evaluated, has_events
-from acausal.fmu.selection import Chosen, communication_step, interface, name_of
+from acausal.fmu.selection import Chosen, communication_step, interface, memory_size, name_of
 from acausal.modeling import (
     HALF,
     Component,
@@ -34,6 +34,7 @@ from acausal.modeling import (
     When,
     der,
     initial,
+    native_file,
     pre,
     sample,
     time,
@@ -41,12 +42,23 @@ from acausal.modeling import (
 )
 
 HISTORY, NEXT, INDICATORS = "fmu.history", "fmu.next", "fmu.indicators"
-REACHED = "fmu.reached"
+REACHED, COMPLETED, TAKEN = "fmu.reached", "fmu.completed", "fmu.taken"
 """Names of what the model knows of the FMU's events."""
 
 
 class _Held(Discrete, Output):
     """An output that is read at communication points and held between them."""
+
+
+class _Earlier(Component):
+    """An input of a co-simulation as it was one communication point before."""
+
+    u, history, y = Input(), Input(kind="int"), _Held()
+
+    def equations(self) -> Iterable[Eq]:
+        """At a communication point the history changes."""
+        now = abs(self.history - pre(self.history)) > HALF
+        yield Eq(self.y, where(now, pre(self.u), pre(self.y), events=False))
 
 
 class FMU(Component):
@@ -64,15 +76,16 @@ class FMU(Component):
         observe: names of further variables that the model reads.
         kind: ``"me"``, model exchange, or ``"cs"``, co-simulation. By default the first of these that the FMU has.
         step: the communication step of co-simulation [s]; by default the one that the FMU suggests, or 1/500 of its
-            experiment.
-        open_loop: nothing that is trained acts on the inputs of a co-simulation, which has no derivatives with respect
-            to them: gradients take them as they are, and are not refused.
+            experiment. In model exchange, the time after which the FMU is told that a step is completed.
+        open_loop: nothing that is trained acts on the inputs of a co-simulation: gradients take them as they are.
+        memory: so many communication steps of a simulation gradients may go through inputs of a co-simulation. Each
+            instant then costs the FMU a step for each input and each instant before.
 
     Raises:
         DeclarationError: for a file that is not a sound FMU, an unknown name, or what is not supported.
     """
 
-    values = Module(doc="what the FMU computes between events, or in a communication step")
+    computed = Module(doc="what the FMU computes between events, or in a communication step")
     event = Module(doc="what the FMU does at an event, or with new inputs")
 
     def __init__(
@@ -84,7 +97,9 @@ class FMU(Component):
         kind: Literal["me", "cs"] | None = None,
         step: float | None = None,
         open_loop: bool = False,
+        memory: int = 0,
     ) -> None:
+        path = native_file(path)
         digest, folder = read(path)
         description = read_description(folder, path, values or {})
         of = interface(description, kind)
@@ -100,12 +115,13 @@ class FMU(Component):
             of,
             communication_step(description, of, step),
             open_loop,
+            memory_size(of, memory, open_loop=open_loop) if chosen.inputs else 0,
         )
         values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")
-        super().__init__(values=FMUFunction(part, values_of), event=FMUFunction(part, event))
+        super().__init__(computed=FMUFunction(part, values_of), event=FMUFunction(part, event))
         self._node.title = description.model
         self._part = part
-        self._has_events = part.kind == "me" and has_events(part)
+        self._has_events = part.kind == "me" and (part.step > 0 or has_events(part))
         self._names: dict[str, str] = {}
         self._declare(chosen)
 
@@ -136,6 +152,9 @@ class FMU(Component):
     # -- declarations ------------------------------------------------------------------------------
 
     def _declare(self, chosen: Chosen) -> None:
+        def starts(v: FMUVariable) -> Any:
+            return _nested([v.conversion.to_model(s) for s in v.starts], v.shape or ())
+
         constant = [v for v in chosen.inputs if v.name in chosen.values]
         for v in (*chosen.parameters, *constant):
             name = name_of(v)
@@ -144,11 +163,11 @@ class FMU(Component):
             unit = v.conversion.unit
             declared = Parameter(unit=unit, min=low, max=high, shape=v.shape, doc=v.text)
             self._add_declaration(name, declared)
-            starts = _nested([v.conversion.to_model(s) for s in v.starts], v.shape or ())
-            self.modify(**{self._names[name]: chosen.values.get(v.name, starts)})
+            self.modify(**{self._names[name]: chosen.values.get(v.name, starts(v))})
         for v in chosen.inputs:
             if v.name not in chosen.values:
-                declared = Input(kind=_kind(v), unit=v.conversion.unit, shape=v.shape, doc=v.text)
+                given, unit = (None if v.start is None else starts(v)), v.conversion.unit
+                declared = Input(kind=_kind(v), default=given, unit=unit, shape=v.shape, doc=v.text)
                 self._add_declaration(v.name, declared)
         if self._part.kind == "cs":
             self._declare_held(chosen.results)
@@ -165,8 +184,23 @@ class FMU(Component):
                 doc=v.text,
             )
             self._add_declaration(v.name, declared)
-        self._add_declaration(HISTORY, Discrete(0, kind="int", doc="number of the FMU's history"))
+        kind = _Held if self._part.memory else Discrete
+        self._add_declaration(HISTORY, kind(0, kind="int", doc="number of the FMU's history"))
         self._add_declaration(REACHED, Discrete(0, kind="int", doc="the same before new inputs"))
+        if self._part.memory:
+            self._declare_memory(self._part.n_inputs)
+
+    def _declare_memory(self, n: int) -> None:
+        """Inputs at the last communication point, and one part for each at a point before: many, but of one form."""
+        self._add_declaration(
+            TAKEN, _Held(shape=(n,), doc="inputs at the last communication point")
+        )
+        self.earlier = [_Earlier() for _ in range(n * (self._part.memory - 1))]
+        for source, part in zip(
+            [*self[TAKEN], *(p.y for p in self.earlier)], self.earlier, strict=False
+        ):
+            self.connect(self[HISTORY], part.history)
+            self.connect(source, part.u)
 
     def _declare_continuous(self, results: Sequence[FMUVariable]) -> None:
         known = self.description.variables
@@ -194,6 +228,9 @@ class FMU(Component):
             self._add_declaration(
                 HISTORY, Discrete(0, kind="int", doc="number of the FMU's history")
             )
+            if self._part.step:
+                doc = "how many steps the FMU was told to be completed"
+                self._add_declaration(COMPLETED, Discrete(0, kind="int", doc=doc))
             self._add_declaration(NEXT, Discrete(NEVER, unit="s", doc="the FMU's next time event"))
             n = self.description.indicators
             self._add_declaration(
@@ -242,13 +279,15 @@ class FMU(Component):
         arguments = self._arguments(history, inputs)
         units = self._units(self.description.states)
         for i, (state, u) in enumerate(zip(states, units, strict=True)):
-            yield Eq(der(state), Conversion(u.unit, u.factor).to_model(self.values(i, *arguments)))
+            yield Eq(
+                der(state), Conversion(u.unit, u.factor).to_model(self.computed(i, *arguments))
+            )
         place = len(states)
         for name in part.results:
             given = self._arguments(history, self._needed(name, inputs))
             for i, result in enumerate(self._elements([name])):
                 if known[name].name not in self.description.states:
-                    found = self.values(place + i, *given)
+                    found = self.computed(place + i, *given)
                     yield Eq(result, known[name].conversion.to_model(found))
             place += known[name].size
         if self._has_events:
@@ -256,14 +295,18 @@ class FMU(Component):
 
     def _communication(self, inputs: list[Any]) -> When:
         """The step to a communication point, and the inputs that hold from there on."""
-        given = self._arguments(pre(self[HISTORY]), [0.0] * len(inputs))
+        taken = self._elements([TAKEN] if self._part.memory else [])
+        earlier = [part.y for part in self.earlier] if self._part.memory else []
+        before = [pre(u) for u in (*taken, *earlier)]
+        given = [*self._arguments(pre(self[HISTORY]), [0.0] * len(inputs)), *before]
         reached, names = self[REACHED], self._part.results
         results = zip(self._elements(names), self._units(names), strict=True)
         return When(
             initial() | sample(0, self._part.step),
-            Eq(reached, self.values(0, *given)),
-            *[Eq(y, u.to_model(self.values(1 + i, *given))) for i, (y, u) in enumerate(results)],
+            Eq(reached, self.computed(0, *given)),
+            *[Eq(y, u.to_model(self.computed(1 + i, *given))) for i, (y, u) in enumerate(results)],
             Eq(self[HISTORY], self.event(0, *self._arguments(reached, inputs))),
+            *[Eq(u, new) for u, new in zip(taken, inputs, strict=False)],
         )
 
     def _needed(self, result: str, inputs: list[Any]) -> list[Any]:
@@ -279,12 +322,15 @@ class FMU(Component):
     ) -> Iterable[Eq | When]:
         indicators = list(self[INDICATORS])
         for i, indicator in enumerate(indicators):
-            yield Eq(indicator, self.values(place + i, *arguments))
+            yield Eq(indicator, self.computed(place + i, *arguments))
         signs = [where(z > 0, 1, 0, events=True) for z in indicators]
         due = where(time >= self[NEXT], 1, 0, events=True)
         given = [*self._arguments(pre(self[HISTORY]), inputs), *signs, due]
         yield Eq(self[HISTORY], self.event(0, *given))
         yield Eq(self[NEXT], self.event(1, *given))
+        if self._part.step:  # at an event, a step of the integration ends
+            count = self[COMPLETED]
+            yield When(sample(0, self._part.step), Eq(count, pre(count) + 1))
         if states:
             each = enumerate(zip(states, self._units(self.description.states), strict=True))
             jumps = [Reinit(x, u.to_model(self.event(2 + i, *given))) for i, (x, u) in each]

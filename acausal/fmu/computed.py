@@ -46,7 +46,8 @@ class Computed:
             _LIBRARIES[key] = SharedLibrary(self.description, folder, part.kind)
         self._library = _LIBRARIES[key]
         self._lock = RLock()
-        most = 1 if self.description.once else max(KEPT, 4 * (part.n_parameters + 1))
+        at_once = 4 * (part.n_parameters + 1) + part.memory * part.n_inputs
+        most = 1 if self.description.once else max(KEPT, at_once)
         self._histories = Histories(most, self._first, self._go)
         n, k, m = part.n, part.n_inputs, part.n_parameters
         self._at_states, self._at_inputs = 2 * BYTES, (2 + n) * BYTES

@@ -7,13 +7,18 @@ are events of its history, so that a step that is tried again, or another simula
 from __future__ import annotations
 
 import ctypes as C
+from collections import OrderedDict
+from collections.abc import Generator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
+from acausal._jax import HostError
 from acausal.fmu.computed import Computed
-from acausal.fmu.derivatives import Differentiated
-from acausal.fmu.histories import AfterEvent, PastEvent
+from acausal.fmu.derivatives import STEP, Differentiated, Numbers
+from acausal.fmu.description import REAL
+from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DISCARD, FATAL, FMUError
 from acausal.fmu.part import Part
@@ -35,6 +40,8 @@ class Slave(Instance):
         values: its parameters. time: where it is. steps: how many it has gone. started: whether it is initialized.
     """
 
+    between = "EnterStepMode"
+    own = ("due", "last", "time", "steps", "started")
     values = b""
     time = 0.0
     steps = 0
@@ -52,11 +59,24 @@ class Slave(Instance):
         held, given = (np.frombuffer(b).copy() for b in (parameters, inputs))
         self.initialize(time, held.ctypes.data, given.ctypes.data if inputs else 0, again=False)
         self.time, self.started = time, True
+        if self.library.description.event_mode:
+            self.due = self.iterate(time).next
 
     def take(self, inputs: bytes) -> None:
-        """Set the inputs that hold from now on."""
+        """Set the inputs that hold from now on: at an event, where the FMU has some."""
         given = np.frombuffer(inputs).copy()
-        self._write(self._writes, given.ctypes.data, "an input")
+        with self._event():
+            self._write(self._writes, given.ctypes.data, "an input")
+
+    @contextmanager
+    def _event(self) -> Generator[None]:
+        """An event, at which something may be set."""
+        has_events = self.library.description.event_mode
+        if has_events:
+            self.call("EnterEventMode")
+        yield
+        if has_events:
+            self.due = self.iterate(self.time).next
 
     def advance(self, end: float) -> None:
         """Go to the next communication point.
@@ -67,9 +87,15 @@ class Slave(Instance):
         step = self._step_2 if self.library.is_2 else self._step_3
         for _ in range(RETURNS):
             self.check_time(end)
-            self.time = step(self.time, end - self.time)
-            if not self.time < end - 1e-9 * abs(end):
-                self.time, self.steps = end, self.steps + 1
+            target = self.due if self.time < self.due < end else end
+            self.time, event = step(self.time, target - self.time)
+            if not self.time < target - 1e-9 * abs(target):
+                self.time = target
+            if event or self.time == self.due:
+                with self._event():
+                    pass
+            if self.time == end:
+                self.steps += 1
                 return
         raise self._failure(end, "returns early for ever")
 
@@ -79,7 +105,7 @@ class Slave(Instance):
             f"FMU: '{self.library.description.model}' {what} at {time:g} s{said}; try a smaller step=."
         )
 
-    def _step_2(self, time: float, size: float) -> float:
+    def _step_2(self, time: float, size: float) -> tuple[float, bool]:
         step = self.library.function("DoStep", C.c_void_p, C.c_double, C.c_double, C.c_int)
         status = step(self.address, time, size, 1)
         if status == DISCARD:
@@ -92,27 +118,27 @@ class Slave(Instance):
                 self.last = last.value
             elif not last.value > time:
                 raise self._failure(time, "refuses the step")
-            return last.value
+            return last.value, False
         if status > FATAL:
             raise self._failure(time, "computes a step in the background, which is not supported,")
         self.check(status, f"the step at {time:g} s")
-        return time + size
+        return time + size, False
 
-    def _step_3(self, time: float, size: float) -> float:
+    def _step_3(self, time: float, size: float) -> tuple[float, bool]:
         flags, last = [C.c_bool() for _ in range(3)], C.c_double(time + size)
         kinds = (C.c_void_p, C.c_double, C.c_double, C.c_bool, *[C.c_void_p] * 4)
         step = self.library.function("DoStep", *kinds)
         status = step(
             self.address, time, size, True, *map(C.addressof, flags), C.addressof(last)
         )  # fmt: skip
-        _, ended, early = (flag.value for flag in flags)
+        event, ended, early = (flag.value for flag in flags)
         if ended:
             self.last = last.value
-            return last.value
+            return last.value, False
         if status == DISCARD:
             raise self._failure(time, "refuses the step")
         self.check(status, f"the step at {time:g} s")
-        return last.value if early else time + size
+        return last.value if early else time + size, event
 
 
 class Stepped(Computed):
@@ -129,11 +155,17 @@ class Stepped(Computed):
         known = self.description.variables
         nominal = [[known[n].nominal] * known[n].size for n in part.results]
         self._sizes = np.asarray([s for sizes in nominal for s in sizes])
+        self._moves: OrderedDict[tuple[int, int, int], tuple[int, float]] = OrderedDict()
+        self._changeable = [
+            known[n].type in REAL for n in part.inputs for _ in range(known[n].size)
+        ]
         first = 2 + part.n_inputs
         width = first + part.n_parameters
+        scales = np.append(self._scales, np.tile(self._scales[2:first], part.memory))
         of_step = Differentiated(
-            self._step, width, 1 + part.n_values, range(first, width), self._scales, self._lock
-        )
+            self._step, len(scales), 1 + part.n_values, range(first, len(scales)), scales, self._lock,
+            fast=self._by_inputs,
+        )  # fmt: skip
         of_taking = Differentiated(self._take, width, 1, (), self._scales, self._lock)
         self.step, self.take = of_step.register(), of_taking.register()
         self.numbers = tuple(range(self.step, self.take + 1))
@@ -157,12 +189,13 @@ class Stepped(Computed):
                 instance.free()
                 instance.make()
                 instance.start(event.time, instance.values, event.inputs)
-            return AfterEvent(0, np.inf, b"", 0)
+            return AfterEvent(0, instance.due, b"", 0)
         if instance.started:
             instance.advance(event.time)
         else:
             instance.start(event.time, instance.values, b"")
-        return AfterEvent(0, np.inf, self._outputs(instance, event.time).tobytes(), 0)
+        outputs = self._outputs(instance, event.time)
+        return AfterEvent(0, instance.due, outputs.tobytes(), 0)
 
     def _outputs(self, instance: Slave, time: float) -> Any:
         found = np.zeros(self._results.size)
@@ -182,19 +215,88 @@ class Stepped(Computed):
     def _step(self, at: int, into: int) -> int:
         """The number of the history behind the step, and the outputs."""
         with self._lock:
-            before, time = self._history(at), C.c_double.from_address(at).value
-            known = self._histories.events
-            event = PastEvent(before, time, b"", b"", b"", timed=True)
-            there = known[before].time == time
-            if there:  # the step that led there
-                event = known[before]
-                while not event.timed:
-                    event = known[event.before]
+            before, event = self._history(at), self._step_at(at)
             after = self._histories.after(self._values_of_parameters(at), event)
-            history, outputs = before if there else after.history, after.numbers
+            history = after.history if event.before == before else before
+            outputs = after.numbers
             C.c_double.from_address(into).value = history
             C.memmove(into + BYTES, outputs, len(outputs))
         return 0
+
+    def _step_at(self, at: int) -> PastEvent:
+        """The step to the time of some arguments; if that is the last communication point, the one that led there."""
+        before, time = self._history(at), C.c_double.from_address(at).value
+        known = self._histories.event
+        if known(before).time != time:
+            return PastEvent(before, time, b"", b"", b"", timed=True)
+        event = known(before)
+        while not event.timed:
+            event = known(event.before)
+        return event
+
+    def _by_inputs(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:
+        """Outputs by earlier inputs: those of instances that have gone through inputs a little larger."""
+        part, rows = self.part, len(matrix)
+        first = 2 + part.n_inputs + part.n_parameters
+        columns = [c for c in wanted if c >= first]
+        if not columns:
+            return {}
+        at = given.ctypes.data
+        event, parameters = self._step_at(at), self._values_of_parameters(at)
+        self._need_memory(event.before)
+        outputs = np.frombuffer(self._histories.after(parameters, event).numbers)
+        for column in columns:
+            age, place = divmod(column - first, part.n_inputs)
+            moved, change = self._moved(event.before, age, place)
+            if change:
+                there = self._histories.after(parameters, event._replace(before=moved)).numbers
+                matrix[1:, column] = (np.frombuffer(there) - outputs) / change
+        return dict.fromkeys(columns, rows)
+
+    def _need_memory(self, history: int) -> None:
+        """Refuse a history of more steps than the model remembers the inputs of."""
+        steps, first = 0, history
+        while first > 0:
+            event = self._histories.event(first)
+            steps, first = steps + event.timed, event.before
+        if steps > self.part.memory:
+            raise HostError(
+                f"FMU: a gradient goes through the inputs of '{self.description.model}' over {steps} communication "
+                f"steps, and memory= is {self.part.memory}; give that of the whole simulation."
+            )
+
+    def _moved(self, history: int, age: int, place: int) -> tuple[int, float]:
+        """The history with one input a little larger, ``age`` communication points before its last; and by how much."""
+        known, moves, later = self._histories, self._moves, list[tuple[Any, PastEvent, PastEvent]]()
+        while (key := (history, age, place)) not in moves:
+            take = known.event(history)
+            if age == 0 or history == 0:
+                moves[key] = self._larger(history, take, place)
+                break
+            step = known.event(take.before)
+            while not step.timed:  # inputs that were replaced at once
+                step = known.event(step.before)
+            later.append((key, take, step))
+            history, age = step.before, age - 1
+        moved, change = moves[key]
+        for key, take, step in reversed(later):
+            if change:
+                moved = known.number(
+                    take._replace(before=known.number(step._replace(before=moved)))
+                )
+            moves[key] = moved, change
+        while len(moves) > REMEMBERED:
+            moves.popitem(last=False)
+        return moved, change
+
+    def _larger(self, history: int, take: PastEvent, place: int) -> tuple[int, float]:
+        if history == 0 or not self._changeable[place]:
+            return history, 0.0
+        inputs = np.frombuffer(take.inputs).copy()
+        before = inputs[place]
+        inputs[place] += STEP * max(self._scales[2 + place], abs(before))
+        moved = self._histories.number(take._replace(inputs=inputs.tobytes()))
+        return moved, float(inputs[place] - before)
 
     def _take(self, at: int, into: int) -> int:
         """The number of the history behind new inputs."""

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.fmu.handlers import register
+from acausal._jax import register_host
 from acausal.fmu.library import DiscardError
 
 STEP = 1e-7
@@ -58,9 +58,9 @@ class Differentiated:
 
     def register(self) -> int:
         """The number of the function; the next two are those of its first and second derivatives."""
-        number = register(self.function)
-        register(self.jacobian)
-        register(self.second)
+        number = register_host(self.function)
+        register_host(self.jacobian)
+        register_host(self.second)
         return number
 
     def jacobian(self, at: int, into: int) -> None:

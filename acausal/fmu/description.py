@@ -92,6 +92,9 @@ class Description:
         once: whether it can be instantiated only once in a process. directional: whether it has derivatives.
         step: the size of communication steps that it suggests for co-simulation.
         returns_early: whether a communication step may end before its end.
+        keeps_state: whether an instance can go back to a state that it had.
+        completes: whether model exchange is told of completed steps. event_mode: whether co-simulation
+            has event mode, and steps that may end at events.
     """
 
     version: str
@@ -111,6 +114,9 @@ class Description:
     directional: bool
     step: float
     returns_early: bool
+    keeps_state: bool
+    completes: bool
+    event_mode: bool
 
     def __hash__(self) -> int:
         return hash((self.token, self.model, self.version))
@@ -206,6 +212,11 @@ def _described(read: Any, directional: bool) -> Description:
     indicators = read.numberOfEventIndicators
     if read.fmiVersion.startswith("3."):
         indicators = sum(variables[u.variable.name].size for u in read.eventIndicators)
+    if clocks := [v for v in variables.values() if v.type == "Clock" and v.causality == "input"]:
+        raise DeclarationError(
+            f"FMU: '{read.modelName}' has the clock '{clocks[0].name}', and clocks that a simulation must tick are not "
+            "supported; export it with sampling inside, by model exchange or co-simulation without clocks."
+        )
     experiment = read.defaultExperiment
     return Description(
         version=read.fmiVersion[:1] + ".0",
@@ -230,6 +241,10 @@ def _described(read: Any, directional: bool) -> Description:
         directional=directional or bool(exchange and exchange.providesDirectionalDerivative),
         step=_step(experiment, cosimulation),
         returns_early=bool(getattr(cosimulation, "mightReturnEarlyFromDoStep", False)),
+        keeps_state=bool(can.canGetAndSetFMUstate),
+        completes=bool(exchange and exchange.needsCompletedIntegratorStep),
+        event_mode=bool(getattr(cosimulation, "hasEventMode", False))
+        and cosimulation.canHandleVariableCommunicationStepSize,
     )
 
 

@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 import ctypes as C
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from acausal.fmu.instance import Instance
-from acausal.fmu.library import BYTES, WARNING, FMUError
-
-PASSES = 100
-"""An FMU that asks for so many updates of its discrete states at one instant asks for ever."""
-
-
-class Info(NamedTuple):
-    """What an FMU says of an event: the next time event (infinite: none), and whether its states have jumped."""
-
-    next: float
-    jumped: bool
+from acausal.fmu.instance import Info, Instance
+from acausal.fmu.library import BYTES, WARNING
 
 
 class Exchange(Instance):
     """One instance between its events."""
+
+    between = "EnterContinuousTimeMode"
 
     def __init__(self, *given: Any) -> None:
         super().__init__(*given)
@@ -36,45 +28,25 @@ class Exchange(Instance):
     def begin(self, time: float, parameters: int, *, again: bool) -> Info:
         """Find the initial values with some parameters, given by address; see `initialize`."""
         self.initialize(time, parameters, 0, again=again)
-        return self._iterate(time)
+        return self.iterate(time)
 
     def happen(self, time: float) -> Info:
-        """An event at the present values, at a time."""
+        """An event at the present values, at a time; a step ends there."""
+        if self.library.description.completes:
+            self._complete(time)
         self.check(self.library.calls["EnterEventMode"](self.address), "EnterEventMode")
-        return self._iterate(time)
+        return self.iterate(time)
 
-    def _iterate(self, time: float) -> Info:
-        """Update discrete states until nothing changes any more, and leave event mode."""
-        library, jumped = self.library, False
-        for _ in range(PASSES):
-            flags, after = self._update()
-            needed, ends, _, values, defined = flags
-            jumped = jumped or values
-            if ends:
-                self.last = time
-            if ends or not needed:
-                break
-        else:
-            raise FMUError(
-                f"FMU: '{library.description.model}' finds no discrete states that agree: they change for ever."
-            )
-        self.check(
-            library.calls["EnterContinuousTimeMode"](self.address), "EnterContinuousTimeMode"
-        )
-        return Info(after if defined else np.inf, jumped)
-
-    def _update(self) -> tuple[list[bool], float]:
-        if self.library.is_2:
-            info = (C.c_int * 8)()  # five flags, padding, and the time as a double
-            update = self.library.function("NewDiscreteStates", C.c_void_p, C.c_void_p)
-            self.check(update(self.address, C.addressof(info)), "NewDiscreteStates")
-            after = C.c_double.from_address(C.addressof(info) + 24).value
-            return [bool(flag) for flag in info[:5]], after
-        flags, after = [C.c_bool() for _ in range(5)], C.c_double()
-        update = self.library.function("UpdateDiscreteStates", *[C.c_void_p] * 7)
-        status = update(self.address, *map(C.addressof, flags), C.addressof(after))
-        self.check(status, "UpdateDiscreteStates")
-        return [flag.value for flag in flags], after.value
+    def _complete(self, time: float) -> None:
+        """Tell an FMU that wants to know it that a step of the integration is completed."""
+        boolean = C.c_int if self.library.is_2 else C.c_bool
+        event, ends = boolean(), boolean()
+        kinds = (C.c_void_p, boolean, C.c_void_p, C.c_void_p)
+        completed = self.library.function("CompletedIntegratorStep", *kinds)
+        status = completed(self.address, 1, C.addressof(event), C.addressof(ends))
+        self.check(status, "CompletedIntegratorStep")
+        if ends.value:
+            self.last = time
 
     def move(self, time: float, states: int, inputs: int) -> None:
         """Set time, states and inputs, these by address."""

@@ -46,8 +46,13 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
         yield "settings", _listed(settings, with_values=True)
     if d.indicators and part.kind == "me":
         yield "events", f"{d.indicators} event indicators"
-    if part.kind == "cs":
-        yield "used by", f"co-simulation, in steps of {part.step:g} s"
+    if part.step:
+        how = (
+            "co-simulation, in steps of"
+            if part.kind == "cs"
+            else "model exchange, with a completed step each"
+        )
+        yield "used by", f"{how} {part.step:g} s"
     yield "derivatives", _derivatives(part)
 
 
@@ -67,7 +72,8 @@ def _listed(variables: list[FMUVariable], *, with_values: bool) -> str:
 
 def _derivatives(part: Part) -> str:
     if part.kind == "cs":
-        return "with respect to parameters by difference quotients of instances"
+        inputs = f", and to inputs over {part.memory} steps," if part.memory else ""
+        return f"with respect to parameters{inputs} by difference quotients of instances"
     own = (
         "the FMU's directional derivatives"
         if part.description.directional

@@ -12,8 +12,8 @@ import numpy as np
 from jax.custom_derivatives import SymbolicZero
 from jaxtyping import Array, Float
 
+from acausal._jax import HOST_FAILURES, call_host
 from acausal.errors import SimulationError
-from acausal.fmu.handlers import FAILURES, called
 from acausal.fmu.part import Part
 from acausal.fmu.registry import computed
 
@@ -48,16 +48,15 @@ class FMUFunction(eqx.Module):
         given = [jnp.asarray(v, kind) for v in values]
         if self.kind == "take":
             inputs = slice(2, 2 + part.n_inputs)
-            held = (
-                jax.lax.stop_gradient if part.open_loop else partial(_held, part.description.model)
-            )
+            known = part.open_loop or part.memory  # by what the model remembers of them
+            held = jax.lax.stop_gradient if known else partial(_held, part.description.model)
             given[inputs] = [held(u) for u in given[inputs]]
         found = _found(number, rows, *given)
         return jnp.take(found, jnp.asarray(which).astype(int))
 
     def why_nonfinite(self) -> str | None:
         """Why the FMU last gave no finite numbers, if it said so."""
-        found = [FAILURES.pop(n) for n in computed(self.part).numbers if n in FAILURES]
+        found = [HOST_FAILURES.pop(n) for n in computed(self.part).numbers if n in HOST_FAILURES]
         return found[0] if found else None
 
 
@@ -70,9 +69,9 @@ def _refuse(model: str, at: tuple[Array], along: tuple[Any]) -> tuple[Array, Arr
     """How an FMU for co-simulation depends on earlier inputs is inside of it."""
     if not isinstance(along[0], SymbolicZero):
         raise SimulationError(
-            f"FMU: the gradient goes through the inputs of '{model}', and a co-simulation has no derivatives with "
-            "respect to its inputs: use it by model exchange, or, if nothing that is trained acts on them, say so: "
-            "ac.FMU(..., open_loop=True)."
+            f"FMU: the gradient goes through the inputs of '{model}', whose co-simulation depends on all earlier ones: "
+            "use it by model exchange; or say over how many communication steps gradients may go, ac.FMU(..., "
+            "memory=100); or, if nothing that is trained acts on them, ac.FMU(..., open_loop=True)."
         )
     return at[0], jnp.zeros_like(at[0])
 
@@ -82,7 +81,7 @@ _held.defjvp(_refuse, symbolic_zeros=True)
 
 @partial(jax.custom_jvp, nondiff_argnums=(0, 1))
 def _found(number: int, rows: int, *given: Float[Array, ""]) -> Float[Array, " rows"]:
-    return called(number, jnp.stack(given), (rows,))
+    return call_host(number, jnp.stack(given), (rows,))
 
 
 def _along(number: int, rows: int, at: tuple[Array, ...], along: tuple[Any, ...]) -> Any:
@@ -102,7 +101,7 @@ _found.defjvp(_along, symbolic_zeros=True)
 def _jacobian(
     number: int, rows: int, moves: tuple[int, ...], given: Float[Array, " n"]
 ) -> Float[Array, "rows n"]:
-    return called(number + 1, _with_marks(moves, given), (rows, *given.shape))
+    return call_host(number + 1, _with_marks(moves, given), (rows, *given.shape))
 
 
 @_jacobian.defjvp
@@ -111,7 +110,7 @@ def _(
 ) -> tuple[Array, Array]:
     (given,) = at
     shape = (rows, *given.shape, *given.shape)
-    second = called(number + 2, _with_marks(moves, given), shape)
+    second = call_host(number + 2, _with_marks(moves, given), shape)
     return _jacobian(number, rows, moves, given), second @ along[0]
 
 

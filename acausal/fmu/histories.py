@@ -12,12 +12,16 @@ from typing import Any, NamedTuple
 from weakref import finalize
 
 from acausal.fmu.instance import Instance
+from acausal.fmu.library import FMUError
 
 KEPT = 128
 """Instances of an FMU, for different parameters and histories, that are kept; the least used one goes."""
 
-RESULTS = 65_536
-"""Events of which what is behind them is kept."""
+STATES = 4096
+"""States of instances that are kept, so that these can go back."""
+
+REMEMBERED = 262_144
+"""Events of an FMU that are kept, and what is behind them; the oldest goes, and its number with it."""
 
 
 class PastEvent(NamedTuple):
@@ -34,6 +38,10 @@ class PastEvent(NamedTuple):
     inputs: bytes
     signs: bytes
     timed: bool
+
+
+START = PastEvent(-1, -float("inf"), b"", b"", b"", False)
+"""What stands before the first event."""
 
 
 class AfterEvent(NamedTuple):
@@ -66,9 +74,11 @@ class Histories:
     ) -> None:
         self._most, self._begin, self._go = most, begin, go
         self._instances: OrderedDict[tuple[bytes, int], Instance] = OrderedDict()
-        self.events: list[PastEvent] = [PastEvent(-1, -float("inf"), b"", b"", b"", False)]
+        self._events: OrderedDict[int, PastEvent] = OrderedDict()
         self._numbers: dict[PastEvent, int] = {}
+        self._count = 0
         self._afters: OrderedDict[tuple[bytes, PastEvent], AfterEvent] = OrderedDict()
+        self._kept: OrderedDict[tuple[bytes, int], Instance] = OrderedDict()
         finalize(self, _free_all, self._instances)
 
     def instance(self, parameters: bytes, history: int) -> Instance:
@@ -82,19 +92,63 @@ class Histories:
             self._instances.move_to_end(key)
         return found
 
+    def event(self, history: int) -> PastEvent:
+        """The last event of a history.
+
+        Raises:
+            FMUError: for one that was forgotten.
+        """
+        if history == 0:
+            return START
+        if history not in self._events:
+            raise FMUError(
+                f"FMU: a simulation has gone through more than {REMEMBERED:,} events of an FMU since, and what came "
+                "before is forgotten; simulate again, over a shorter time."
+            )
+        return self._events[history]
+
+    def number(self, event: PastEvent) -> int:
+        """The number of the history that ends with an event."""
+        if event not in self._numbers:
+            self._count += 1
+            self._numbers[event], self._events[self._count] = self._count, event
+            if len(self._events) > REMEMBERED:
+                del self._numbers[self._events.popitem(last=False)[1]]
+        return self._numbers[event]
+
     def _again(self, parameters: bytes, history: int) -> Instance:
-        """An instance that goes through a history, from where one has come already if possible."""
+        """An instance that goes through a history, from where one has come already, or can go back to, if possible."""
         chain: list[PastEvent] = []
-        while history > 0 and (parameters, history) not in self._instances:
-            chain.append(self.events[history])
-            history = self.events[history].before
-        instance = self._instances.pop((parameters, history), None) if chain else None
+        instance = self._back(parameters, history)
+        while instance is None and history > 0 and (parameters, history) not in self._instances:
+            chain.append(self.event(history))
+            history = chain[-1].before
+            instance = self._back(parameters, history)
+        if instance is None and chain:
+            instance = self._instances.pop((parameters, history), None)
         if instance is None:
             again = len(self._instances) >= self._most
             instance = self._begin(
                 parameters, self._instances.popitem(last=False)[1] if again else None
             )
+            self._keep_state(parameters, 0, instance)
         return self._through(parameters, instance, reversed(chain))[0]
+
+    def _back(self, parameters: bytes, history: int) -> Instance | None:
+        """An instance that has gone back to a history, if one can."""
+        instance = self._kept.get((parameters, history))
+        place = next((k for k, i in self._instances.items() if i is instance), None)
+        if instance is None or place is None or not instance.go_back((parameters, history)):
+            return None
+        return self._instances.pop(place)
+
+    def _keep_state(self, parameters: bytes, history: int, instance: Instance) -> None:
+        key = parameters, history
+        if instance.keep(key):
+            self._kept[key] = instance
+            if len(self._kept) > STATES:
+                old, last = self._kept.popitem(last=False)
+                last.forget(old)
 
     def _through(
         self, parameters: bytes, instance: Instance, events: Iterable[PastEvent]
@@ -105,10 +159,9 @@ class Histories:
             for event in events:
                 after = self._go(instance, event)
                 instance.due = after.next
-                history = self._numbers.setdefault(event, len(self.events))
-                if history == len(self.events):
-                    self.events.append(event)
+                history = self.number(event)
                 self._keep((parameters, event), after._replace(history=history))
+                self._keep_state(parameters, history, instance)
         except BaseException:
             instance.free()
             raise
@@ -119,7 +172,7 @@ class Histories:
         key = parameters, event
         if (known := self._afters.get(key)) is not None:
             return known
-        last = self.events[event.before]
+        last = self.event(event.before)
         same = (last.time, last.inputs, last.signs) == (event.time, event.inputs, event.signs)
         instance = self.instance(parameters, event.before)
         if same:  # it has gone through this event
@@ -133,7 +186,7 @@ class Histories:
 
     def _keep(self, key: tuple[bytes, PastEvent], after: AfterEvent) -> AfterEvent:
         self._afters[key] = after
-        if len(self._afters) > RESULTS:
+        if len(self._afters) > REMEMBERED:
             self._afters.popitem(last=False)
         return after
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ctypes as C
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -23,6 +23,17 @@ from acausal.fmu.library import (
     Variables,
     kind_of,
 )
+
+PASSES = 100
+"""An FMU that asks for so many updates of its discrete states at one instant asks for ever."""
+
+
+class Info(NamedTuple):
+    """What an FMU says of an event: the next time event (infinite: none), and whether its states have jumped."""
+
+    next: float
+    jumped: bool
+
 
 Settings = Sequence[tuple[FMUVariable, Any]]
 """Variables with values that are fixed when an FMU is made."""
@@ -43,6 +54,12 @@ class Instance:
 
     due = last = float("inf")
 
+    between: ClassVar[str]
+    """The function that leaves event mode."""
+
+    own: ClassVar[tuple[str, ...]] = ("due", "last")
+    """Attributes that belong to its state."""
+
     def __init__(
         self,
         library: SharedLibrary,
@@ -56,6 +73,7 @@ class Instance:
         self._reads = self._calls("Get", results)
         self._writes = self._calls("Set", inputs)
         self._sets = self._calls("Set", parameters)
+        self._kept: dict[Any, tuple[int, list[Any]]] = {}
         self.make()
 
     def make(self) -> None:
@@ -84,10 +102,44 @@ class Instance:
     def free(self) -> None:
         """Give it back."""
         if self.address:
+            for key in list(self._kept):
+                self.forget(key)
             free = self.library.function("FreeInstance", C.c_void_p, result=None)
             address, self.address = self.address, 0
             self.library.instances -= 1
             free(address)
+
+    def keep(self, key: Any) -> bool:
+        """Keep the present state under some name, if the FMU can; whether it was kept."""
+        if not self.library.description.keeps_state or key in self._kept:
+            return False
+        state = C.c_void_p()
+        keep = self.library.function(self._state("Get"), C.c_void_p, C.c_void_p)
+        if keep(self.address, C.addressof(state)) > WARNING:
+            return False
+        self._kept[key] = state.value or 0, [getattr(self, name) for name in self.own]
+        return True
+
+    def go_back(self, key: Any) -> bool:
+        """Go back to a state that was kept; whether there is one of that name."""
+        if key not in self._kept:
+            return False
+        state, values = self._kept[key]
+        go_back = self.library.function(self._state("Set"), C.c_void_p, C.c_void_p)
+        self.check(go_back(self.address, state), "going back to a state")
+        for name, value in zip(self.own, values, strict=True):
+            setattr(self, name, value)
+        return True
+
+    def forget(self, key: Any) -> None:
+        """Give a state back."""
+        if key in self._kept:
+            state = C.c_void_p(self._kept.pop(key)[0])
+            forget = self.library.function(self._state("Free"), C.c_void_p, C.c_void_p)
+            forget(self.address, C.addressof(state))
+
+    def _state(self, verb: str) -> str:
+        return f"{verb}FMU{'state' if self.library.is_2 else 'State'}"
 
     def check(self, status: int, what: str) -> None:
         """Refuse a status.
@@ -132,6 +184,8 @@ class Instance:
         yes, number = C.c_int if library.is_2 else C.c_bool, C.c_double
         self.last = np.inf
         if again:
+            for key in list(self._kept):
+                self.forget(key)
             self.call("Reset")
         structural = [s for s in self.settings if s[0].causality == STRUCTURAL]
         if structural:
@@ -153,6 +207,41 @@ class Instance:
         if inputs:
             self._write(self._writes, inputs, "an input")
         self.call("ExitInitializationMode")
+
+    def iterate(self, time: float) -> Info:
+        """Update discrete states until nothing changes any more, and leave event mode.
+
+        Raises:
+            FMUError: if they change for ever.
+        """
+        jumped = False
+        for _ in range(PASSES):
+            flags, after = self._update()
+            needed, ends, _, values, defined = flags
+            jumped = jumped or values
+            if ends:
+                self.last = time
+            if ends or not needed:
+                break
+        else:
+            raise FMUError(
+                f"FMU: '{self.library.description.model}' finds no discrete states that agree: they change for ever."
+            )
+        self.call(self.between)
+        return Info(after if defined else np.inf, jumped)
+
+    def _update(self) -> tuple[list[bool], float]:
+        if self.library.is_2:
+            info = (C.c_int * 8)()  # five flags, padding, and the time as a double
+            update = self.library.function("NewDiscreteStates", C.c_void_p, C.c_void_p)
+            self.check(update(self.address, C.addressof(info)), "NewDiscreteStates")
+            after = C.c_double.from_address(C.addressof(info) + 24).value
+            return [bool(flag) for flag in info[:5]], after
+        flags, after = [C.c_bool() for _ in range(5)], C.c_double()
+        update = self.library.function("UpdateDiscreteStates", *[C.c_void_p] * 7)
+        status = update(self.address, *map(C.addressof, flags), C.addressof(after))
+        self.check(status, "UpdateDiscreteStates")
+        return [flag.value for flag in flags], after.value
 
     def _set_all(self, settings: Settings) -> None:
         for variable, value in settings:

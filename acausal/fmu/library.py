@@ -174,7 +174,9 @@ class SharedLibrary:
             log = C.cast(self._log, C.c_void_p)
             early = d.returns_early
             place = f"{resources}/".encode()
-            made = make(name, token, place, False, True, False, early, None, 0, None, log, None)
+            made = make(
+                name, token, place, False, True, d.event_mode, early, None, 0, None, log, None
+            )
         else:
             make = self.function(
                 "InstantiateModelExchange", text, text, text, boolean, boolean, C.c_void_p, C.c_void_p,
@@ -201,8 +203,7 @@ class SharedLibrary:
         for name in names:
             found[name] = self.function(name, p, p, size)
         found["rates"] = found[rates]
-        for name in ("EnterEventMode", "EnterContinuousTimeMode"):
-            found[name] = self.function(name, p)
+        found["EnterEventMode"] = self.function("EnterEventMode", p)
         return found
 
     @cached_property

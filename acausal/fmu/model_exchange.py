@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes as C
+import math
+from collections import OrderedDict
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,7 @@ from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import Differentiated, Numbers
 from acausal.fmu.description import REAL
 from acausal.fmu.exchange import Exchange
-from acausal.fmu.histories import AfterEvent, PastEvent
+from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DiscardError, FMUError
 from acausal.fmu.part import Part
@@ -38,7 +40,8 @@ class Evaluated(Computed):
 
     def __init__(self, part: Part) -> None:
         super().__init__(part)
-        self._firsts: dict[bytes, tuple[float, bytes]] = {}
+        self._firsts: OrderedDict[bytes, tuple[float, bytes]] = OrderedDict()
+        self._given = C.c_double * (self._behind // BYTES)
         n, indicators = part.n, self.description.indicators
         width = 2 + n + part.n_inputs + part.n_parameters
         common: dict[str, Any] = {
@@ -80,6 +83,8 @@ class Evaluated(Computed):
             raise
         instance.due = min(first.next, NEVER)
         self._firsts[parameters] = instance.due, states.tobytes()
+        if len(self._firsts) > REMEMBERED:
+            self._firsts.popitem(last=False)
         return instance
 
     def _go(self, instance: Instance, event: PastEvent) -> AfterEvent:
@@ -111,6 +116,8 @@ class Evaluated(Computed):
     # -- functions ---------------------------------------------------------------------------------
 
     def _evaluate(self, at: int, into: int) -> int:
+        if not math.isfinite(sum(self._given.from_address(at))):
+            raise DiscardError  # many an FMU prints its complaints
         with self._lock:
             instance = self._at(self._values_of_parameters(at), self._history(at))
             time = C.c_double.from_address(at).value
@@ -124,6 +131,8 @@ class Evaluated(Computed):
             parameters = self._values_of_parameters(at)
             if parameters not in self._firsts:
                 self._at(parameters, 0)
+            if parameters not in self._firsts:  # they were forgotten, but not the instance
+                self._first(parameters, None).free()
             due, states = self._firsts[parameters]
             C.c_double.from_address(into).value = due
             C.memmove(into + BYTES, states, len(states))

@@ -20,6 +20,7 @@ class Part:
         parameters, inputs, results: names of what a model gives, and of what it reads.
         kind: model exchange or co-simulation. step: the communication step [s].
         open_loop: whether gradients take the inputs of a co-simulation as they are.
+        memory: the communication steps over which gradients go through these inputs.
     """
 
     path: str
@@ -32,6 +33,7 @@ class Part:
     kind: Interface = "me"
     step: float = 0.0
     open_loop: bool = False
+    memory: int = 0
 
     # -- sizes -----------------------------------------------------------------------------------
 

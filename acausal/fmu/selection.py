@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
+from numbers import Integral, Real
 from typing import Any
 
 from acausal.errors import DeclarationError, nearest, shown
@@ -26,21 +26,46 @@ def interface(description: Description, kind: Any) -> Interface:
 
 
 def communication_step(description: Description, kind: Interface, step: Any) -> float:
-    """The communication step of co-simulation [s]; 0 for model exchange.
+    """The communication step of co-simulation, or the time after which model exchange is told of a completed step [s].
+
+    0 where nobody is told. FMI 3.0 says which FMUs need it; by FMI 2.0 nearly all say that they do.
 
     Raises:
-        DeclarationError: for what is not a time above zero, or for model exchange.
+        DeclarationError: for what is not a time above zero, or for model exchange that need not be told.
     """
     if step is None:
-        return description.step if kind == "cs" else 0.0
-    if kind == "me":
+        told = description.completes and description.version == "3.0"
+        return description.step if kind == "cs" or told else 0.0
+    if kind == "me" and not description.completes:
         raise DeclarationError(
-            f"FMU: '{description.model}' is used by model exchange, which has no communication step; leave step= out, "
-            "or give kind='cs'."
+            f"FMU: '{description.model}' is used by model exchange, which has no communication step, and need not be "
+            "told of completed steps; leave step= out, or give kind='cs'."
         )
     if not isinstance(step, Real) or not 0 < float(step) < math.inf:
         raise DeclarationError(f"FMU: step={shown(step)} must be a time above zero, in seconds.")
     return float(step)
+
+
+def memory_size(kind: Interface, memory: Any, *, open_loop: bool) -> int:
+    """The number of communication steps over which gradients go through inputs.
+
+    Raises:
+        DeclarationError: for what is no such number, or where it means nothing.
+    """
+    if isinstance(memory, bool) or not isinstance(memory, Integral) or memory < 0:
+        raise DeclarationError(
+            f"FMU: memory={shown(memory)} must be a number of communication steps."
+        )
+    if memory and (kind == "me" or open_loop):
+        why = (
+            "model exchange, which has gradients"
+            if kind == "me"
+            else "open_loop=True, which has none"
+        )
+        raise DeclarationError(
+            f"FMU: memory={memory} is for gradients through inputs of a co-simulation, not {why}."
+        )
+    return int(memory)
 
 
 class Chosen:

@@ -23,6 +23,7 @@ def load(
     libraries: Sequence[ModuleType] = (),
     path: Sequence[str | Path] = (),
     budget: Budget | None = None,
+    allow_native: bool = False,
 ) -> Component:
     """Read a model from Modelica text, ``….mo``, or from a JSON netlist.
 
@@ -33,6 +34,7 @@ def load(
         libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
         path: folders with further packages of Modelica text, before those in ``MODELICAPATH``.
         budget: how large the model may become, here and when it is compiled; by default ``ac.Budget()``.
+        allow_native: whether the model may have parts that run native code, FMUs; their paths are relative to the file.
 
     Returns:
         The model, a `Component` with the parts of the file.
@@ -48,10 +50,10 @@ def load(
     if file.suffix != ".mo" and not file.is_dir():
         if model is not None:
             raise ModelError(f"{file.name} is a netlist, which is one model; leave out '{model}'")
-        return netlist.load(file, libraries, budget=budget)
+        return netlist.load(file, libraries, budget=budget, allow_native=allow_native)
     allowed = Budget() if budget is None else budget
     tree = Tree(netlist.libraries_of(libraries), [Path(p) for p in path])
-    with spending(allowed):
+    with spending(allowed, file.parent if allow_native else None):
         nodes = tree.add(file / "package.mo" if file.is_dir() else file)
         found = class_of(_wanted(file, tree, nodes, model))()
         netlist.check_sizes(found)

@@ -13,6 +13,7 @@ from acausal.modeling.budget import (
     charge as charge,
     check_nested as check_nested,
     check_size as check_size,
+    native_file as native_file,
     spending as spending,
 )
 from acausal.modeling.component import Component as Component

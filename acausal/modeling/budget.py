@@ -7,6 +7,7 @@ from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field, fields
+from pathlib import Path
 from typing import Any, cast
 
 from acausal.errors import DeclarationError, shown
@@ -58,9 +59,10 @@ class BudgetError(DeclarationError):
 
 @dataclass
 class _Account:
-    """What has been spent of a budget."""
+    """What has been spent of a budget, and where native code may come from."""
 
     budget: Budget
+    native: Path | None
     spent: dict[str, int] = field(default_factory=dict[str, int])
     began: float = field(default_factory=time.monotonic)
 
@@ -69,15 +71,18 @@ _ACTIVE: ContextVar[_Account | None] = ContextVar("budget", default=None)
 
 
 @contextmanager
-def spending(budget: Budget) -> Generator[None]:
+def spending(budget: Budget, native: Path | None = Path()) -> Generator[None]:
     """Charge what is made meanwhile to a budget.
+
+    Arguments:
+        native: the folder of relative paths to files with native code; None: a model in a file may not have any.
 
     Raises:
         DeclarationError: for what is not a budget.
     """
     if not isinstance(budget, Budget):
         raise DeclarationError(f"budget={shown(budget)} is not a budget; give ac.Budget(...).")
-    token = _ACTIVE.set(_Account(budget))
+    token = _ACTIVE.set(_Account(budget, native))
     try:
         yield
     finally:
@@ -104,6 +109,23 @@ def charge(kind: str, count: int, label: Any) -> None:
     if time.monotonic() - account.began > allowed.seconds:
         what = f"at {_name(label)} the model has taken too many seconds"
         raise _over(allowed, "seconds", what, 10 * allowed.seconds)
+
+
+def native_file(path: str | Path) -> str | Path:
+    """The path to a file with native code, as seen from the model's file where one is being read.
+
+    Raises:
+        DeclarationError: in a file that is read without permission.
+    """
+    account = _ACTIVE.get()
+    if account is None:
+        return path
+    if account.native is None:
+        raise DeclarationError(
+            f"{shown(str(path))} runs native code, which can do whatever you can do; if you trust it, load the model "
+            "with allow_native=True."
+        )
+    return account.native / path
 
 
 def check_size(count: int, label: str) -> None:

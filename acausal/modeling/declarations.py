@@ -216,14 +216,15 @@ class Input(Variable):
     Arguments:
         kind: ``"real"``, ``"bool"`` (1 or 0) or ``"int"``. As an input of the model, one that is not real is held from
             sample to sample unless a record says otherwise.
+        default: what it is as an input of the model where nothing is given for it; a tuple for each of several.
         others: as of `Variable`.
     """
 
-    def __init__(self, *, kind: Kind = "real", **others: Any) -> None:
+    def __init__(self, *, kind: Kind = "real", default: Any = None, **others: Any) -> None:
         if not isinstance(kind, str) or kind not in KINDS:
             raise DeclarationError(f"kind={shown(kind)} must be one of {', '.join(KINDS)}")
         super().__init__(**others)
-        self.kind = kind
+        self.kind, self.default = kind, default
 
 
 class Output(Variable):

@@ -39,7 +39,11 @@ from acausal.netlist.writer import Writer
 
 
 def load(
-    path: str | Path, libraries: Sequence[ModuleType] = (), *, budget: Budget | None = None
+    path: str | Path,
+    libraries: Sequence[ModuleType] = (),
+    *,
+    budget: Budget | None = None,
+    allow_native: bool = False,
 ) -> Netlist:
     """Read a model from a JSON netlist.
 
@@ -47,6 +51,7 @@ def load(
         path: the file.
         libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
         budget: how large the model may become, here and when it is compiled; by default ``ac.Budget()``.
+        allow_native: whether the model may have parts that run native code, FMUs; their paths are relative to the file.
 
     Returns:
         The model, a `Component` with the parts of the file.
@@ -57,7 +62,7 @@ def load(
     """
     path, known = need_path(path, "load", ModelError), libraries_of(libraries)
     allowed = Budget() if budget is None else budget
-    with spending(allowed):
+    with spending(allowed, path.parent if allow_native else None):
         document = netlist_file.read(path)
         model = within(path.name, lambda: build(document, path.name, known))
         within(path.name, lambda: check_sizes(model))

@@ -99,7 +99,10 @@ class Scope:
         return _option_value(option, self.value(raw, where), where)
 
     def argument(self, raw: Any, where: str) -> Any:
-        """An argument of a class: a class by its name, a value, or a list of them."""
+        """An argument of a class: a class by its name, a value, or a list or an object of them."""
+        if isinstance(raw, Mapping):
+            each = cast(Mapping[str, Any], raw).items()
+            return {n: self.argument(v, f"{where}.{shortened(n)}") for n, v in each}
         if isinstance(raw, list):
             items = cast(list[Any], raw)
             return [self.argument(item, f"{where}[{i}]") for i, item in enumerate(items)]

@@ -15,7 +15,7 @@ from acausal.simulation.fixed_steps import (
 )
 from acausal.simulation.inputs import (
     TimeFunction as TimeFunction,
-    announce_derivatives as announce_derivatives,
+    announce_inputs as announce_inputs,
     evaluate_all as evaluate_all,
     functions_of_time as functions_of_time,
 )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
+from ctypes import c_double
+from functools import cache
 from typing import Any
 
 import equinox as eqx
@@ -12,7 +14,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array
 
-from acausal._jax import is_real
+from acausal._jax import HostError, call_host, is_real, register_host
 from acausal.errors import DataError, shown
 
 RELATIVE_STEP = 1e-5
@@ -22,7 +24,7 @@ RELATIVE_STEP = 1e-5
 class HostFunction(eqx.Module):
     """A function of time in plain Python, NumPy or SciPy, as an input.
 
-    Every evaluation leaves the compiled program, so it is slower than one that JAX traces. It must be pure: the same
+    Every evaluation leaves the compiled program, for some microseconds besides its own time. It must be pure: the same
     time gives the same value. Its derivative by time is a difference quotient.
     """
 
@@ -37,6 +39,8 @@ class HostFunction(eqx.Module):
 
         @jax.custom_jvp
         def value(t: Array) -> Array:
+            if jax.default_backend() == "cpu":
+                return call_host(_number(self), t[None], (1,))[0]
             shape = jax.ShapeDtypeStruct((), t.dtype)
             return jax.pure_callback(called, shape, t, vmap_method="sequential")
 
@@ -55,12 +59,30 @@ class HostFunction(eqx.Module):
         Raises:
             DataError: for what is not a real number.
         """
-        found = self.function(t)
-        if not is_real(found) or np.ndim(found):
-            raise DataError(
-                f"Input '{self.name}' is a function that returns {shown(found)} at {t:g} s, not a real number."
-            )
-        return float(found)
+        return _value(self.function, self.name, t)
+
+
+def _value(function: Callable[[float], Any], name: str, t: float) -> float:
+    found = function(t)
+    if not isinstance(found, float) and (not is_real(found) or np.ndim(found)):
+        raise DataError(
+            f"Input '{name}' is a function that returns {shown(found)} at {t:g} s, not a real number."
+        )
+    return float(found)
+
+
+@cache
+def _number(host: HostFunction) -> int:
+    """The number by which compiled programs call it."""
+    function, name, number = host.function, host.name, c_double.from_address
+
+    def call(at: int, into: int) -> None:
+        try:
+            number(into).value = _value(function, name, number(at).value)
+        except Exception as error:  # of a user's code
+            raise HostError(f"Input '{name}': {type(error).__name__}: {error}") from None
+
+    return register_host(call)
 
 
 def on_host(function: Callable[[Any], Any], name: str, start: float) -> HostFunction | None:

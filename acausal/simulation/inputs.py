@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
 import equinox as eqx
@@ -115,35 +115,36 @@ def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
 
 
 def functions_of_time(
-    names: tuple[str, ...],
+    system: System,
     given: Mapping[str, Any] | Data,
     span: Span,
     ends: Float[np.ndarray, " n_ends"] | None = None,
-    held: Set[str] = frozenset(),
 ) -> tuple[TimeFunction, ...]:
     """One function of time for each of the model's inputs.
 
-    Where the model differentiates an input and its derivative is not given, the function is differentiated.
+    Where the model differentiates an input and its derivative is not given, the function is differentiated. What is not
+    given is the input's default, if it has one.
 
     Arguments:
-        names: the model's inputs.
+        system: the model. Its held inputs keep each sample until the next, unless something else is said.
         given: by name, a number; samples at ``ends``; a pair (times, samples); a `Signal`; any function of time. Or
             a record that holds them, in the model's units.
         span: the time for which they are needed.
         ends: ends of the fixed steps, for samples without times.
-        held: the inputs that keep each sample until the next, unless something else is said.
 
     Raises:
         DataError: for an input that is missing, unknown or malformed, that has no derivative where the model needs
             one, or whose samples do not reach from start to end.
     """
-    sources = _sources(names, given)
+    sources, defaults = _sources(system, given), system.input_defaults
     differentiated = [source for name, source in sources.items() if source != name]
     functions: dict[str, TimeFunction] = {}
     for source in dict.fromkeys(sources.values()):
         kind: Interpolation = "cubic" if source in differentiated else "linear"
-        kind = "previous" if source in held else kind
-        if isinstance(given, Data):
+        kind = "previous" if source in system.held_inputs else kind
+        if source not in given:
+            function = Constant(array(defaults[source]))
+        elif isinstance(given, Data):
             function = given.signal(source, kind)
         else:
             function = _function(source, given[source], ends, kind, span[0])
@@ -151,13 +152,21 @@ def functions_of_time(
     return tuple(_derived(name, source, functions[source]) for name, source in sources.items())
 
 
-def announce_derivatives(names: tuple[str, ...], given: Mapping[str, Any] | Data) -> None:
-    """Warn that records are differentiated, once for each; other functions have exact derivatives.
+def announce_inputs(system: System, given: Mapping[str, Any] | Data) -> None:
+    """Warn that records lack inputs, which are their defaults, and that they are differentiated, once for each.
 
-    Arguments as of `functions_of_time`.
+    Other functions have exact derivatives. Arguments as of `functions_of_time`.
     """
-    sources = _sources(names, given)
-    for name in dict.fromkeys(source for name, source in sources.items() if source != name):
+    sources, defaults = _sources(system, given), system.input_defaults
+    lacking = [n for n in dict.fromkeys(sources.values()) if n not in given]
+    if lacking and isinstance(given, Data):
+        values = ", ".join(f"'{n}' is {defaults[n]:g}" for n in lacking)
+        warnings.warn(
+            f"The data lack {listing(lacking)}: {values} throughout, the start value.",
+            stacklevel=user_level(),
+        )
+    differentiated = dict.fromkeys(s for name, s in sources.items() if s != name and s in given)
+    for name in differentiated:
         value = given.signal(name, "cubic") if isinstance(given, Data) else given[name]
         if isinstance(value, Signal):
             kind = value.interpolation
@@ -172,8 +181,9 @@ def announce_derivatives(names: tuple[str, ...], given: Mapping[str, Any] | Data
         )
 
 
-def _sources(names: tuple[str, ...], given: Mapping[str, Any] | Data) -> dict[str, str]:
-    """By input, the name of what is given for it: itself, or what it is a derivative of."""
+def _sources(system: System, given: Mapping[str, Any] | Data) -> dict[str, str]:
+    """By input, the name of what is given for it, or is its default: itself, or what it is a derivative of."""
+    names, defaults = system.inputs, system.input_defaults
     known = {form for name in names for form in _antiderivatives(name)}
     unknown = [n for n in given if n not in known]
     if unknown and not isinstance(given, Data):
@@ -183,6 +193,7 @@ def _sources(names: tuple[str, ...], given: Mapping[str, Any] | Data) -> dict[st
     for name in names:
         forms = tuple(_antiderivatives(name))
         found = [form for form in forms if form in given]
+        found += [form for form in forms if form in defaults]
         sources.update({name: found[0]} if found else {})
         missing += [] if found or forms[-1] in missing else [forms[-1]]
     if missing and isinstance(given, Data):

@@ -23,7 +23,7 @@ from acausal.simulation import solvers
 from acausal.simulation.fixed import are_split, simulate_fixed
 from acausal.simulation.inputs import (
     TimeFunction,
-    announce_derivatives,
+    announce_inputs,
     evaluate_all,
     functions_of_time,
     inputs_by_name,
@@ -136,9 +136,9 @@ def simulate(
     width = 2 + len(system.states) + 3 * len(system.inputs)
     ends = None if dt is None else step_ends(start, end, dt, width)
     given = inputs_by_name(system, inputs)
-    functions = functions_of_time(system.inputs, given, (start, end), ends, system.held_inputs)
+    functions = functions_of_time(system, given, (start, end), ends)
     _check_times(kind, ends, saved, functions)
-    announce_derivatives(system.inputs, given)
+    announce_inputs(system, given)
     packed = system.pack(params)
     u_start = select(evaluate_all(functions, array([start])), 0)
     steady = isinstance(x0, str) and x0 == "steady"

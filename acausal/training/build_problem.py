@@ -21,7 +21,7 @@ from acausal.simulation import (
     BDF,
     Adaptive,
     Scheme,
-    announce_derivatives,
+    announce_inputs,
     check_clocks,
     check_tolerances,
     for_adaptive_steps,
@@ -119,7 +119,7 @@ def build_problem(
     )
     records = _with_guesses(system, records, params)
     for record in data.values():
-        announce_derivatives(system.inputs, record)
+        announce_inputs(system, record)
     loss = named(options.loss, targets)
     weights = weighting(options.record_weights, options.sample_weights, tuple(data), targets, loss)
     records = _weighted(records, weights, targets)

@@ -4,23 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
-from zipfile import ZipFile
 
 import numpy as np
 import pytest
 from scipy.linalg import expm
 
 import acausal as ac
-from acausal.fmu.archive import ENDING, PLATFORMS
-from tests.support.exported_c import compile_c
-from tests.support.fmus import need_fmpy
-
-SOURCE = Path(__file__).parents[1] / "support" / "linear_system.c"
+from tests.support.fmus import compiled_fmu
 
 DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="Linear" instantiationToken="linear">
-  <ModelExchange modelIdentifier="linear"/>
-  <CoSimulation modelIdentifier="linear"/>
+  <ModelExchange modelIdentifier="linear_system"/>
+  <CoSimulation modelIdentifier="linear_system"/>
   <ModelVariables>
     <Float64 name="time" valueReference="0" causality="independent" variability="continuous"/>
     <UInt64 name="n" valueReference="1" causality="structuralParameter" variability="fixed" start="1"/>
@@ -49,14 +44,7 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 @pytest.fixture(scope="module")
 def linear(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The FMU."""
-    folder = tmp_path_factory.mktemp("linear")
-    library, path = folder / f"linear{ENDING}", folder / "linear.fmu"
-    headers = Path(need_fmpy().__file__).parent / "c-code"
-    compile_c([SOURCE], library, "-isystem", str(headers))
-    with ZipFile(path, "w") as archive:
-        archive.writestr("modelDescription.xml", DESCRIPTION)
-        archive.write(library, f"binaries/{PLATFORMS[-1]}/linear{ENDING}")
-    return path
+    return compiled_fmu(tmp_path_factory.mktemp("linear"), "linear_system", DESCRIPTION)
 
 
 MATRIX = np.array([[-1.0, 0.5], [-3.0, -2.0]])

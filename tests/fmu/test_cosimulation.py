@@ -23,9 +23,9 @@ class Looped(ac.Component):
 
     k = ac.Parameter(-2.0, unit="N/m")
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, memory: int = 0) -> None:
         super().__init__()
-        self.plant = ac.FMU(path, kind="cs", step=STEP)
+        self.plant = ac.FMU(path, kind="cs", step=STEP, memory=memory)
         self.push, self.area = ac.Output(unit="N"), ac.Variable(fixed=True)
         self.connect(self.push, self.plant.f)
 
@@ -69,7 +69,7 @@ def test_it_steps_from_point_to_point(masses: Callable[[str], Path], fmi: str) -
 
 
 @pytest.mark.slow
-def test_parameters_have_gradients_and_inputs_have_none(masses: Callable[[str], Path]) -> None:
+def test_parameters_have_gradients_and_inputs_need_a_memory(masses: Callable[[str], Path]) -> None:
     system = ac.compile(ac.FMU(masses("2.0"), {"f": 1.0}, kind="cs", step=STEP))
 
     def last(d: Any) -> Any:
@@ -77,8 +77,26 @@ def test_parameters_have_gradients_and_inputs_have_none(masses: Callable[[str], 
 
     np.testing.assert_allclose(jax.grad(last)(2.0), (last(2.001) - last(1.999)) / 2e-3, rtol=1e-5)
     looped = ac.compile(Looped(masses("2.0")))
-    with pytest.raises(ac.SimulationError, match="has no derivatives with respect to its inputs"):
+    with pytest.raises(ac.SimulationError, match="whose co-simulation depends on all earlier"):
         jax.grad(lambda k: ac.simulate(looped, 0.02, dt=STEP, params={"k": k})["area"][-1])(-2.0)
+
+
+@pytest.mark.slow
+def test_gradients_go_through_inputs_as_far_as_the_memory(masses: Callable[[str], Path]) -> None:
+    system = ac.compile(Looped(masses("2.0"), memory=6))
+
+    def last(k: Any, d: Any, steps: int = 6) -> Any:
+        known = {"k": k, "plant.d": d}
+        return ac.simulate(system, steps * STEP, dt=STEP, params=known)["area"][-1]
+
+    for i, found in enumerate(jax.grad(last, argnums=(0, 1))(-200.0, 2.0)):
+        h = 1e-3 * (1 - i), 1e-3 * i
+        expected = (last(-200.0 + h[0], 2.0 + h[1]) - last(-200.0 - h[0], 2.0 - h[1])) / 2e-3
+        np.testing.assert_allclose(found, expected, rtol=1e-5)
+    with pytest.raises(
+        jax.errors.JaxRuntimeError, match=r"over 9 communication steps, and memory= is 6"
+    ):
+        float(jax.grad(lambda k: last(k, 2.0, 9))(-200.0))
 
 
 @pytest.mark.slow
@@ -97,8 +115,6 @@ def test_the_kind_and_the_step_are_checked() -> None:
         ac.FMU(only, kind="me")
     with pytest.raises(ac.DeclarationError, match="above zero"):
         ac.FMU(only, step=-1.0)
-    with pytest.raises(ac.DeclarationError, match="has no communication step"):
-        ac.FMU(foreign_fmu("Mass_Damper"), step=0.1)
     system = ac.compile(ac.FMU(only))
     run = ac.simulate(system, 0.004, dt=2e-3, inputs=dict.fromkeys(system.inputs, 1.0))
     assert np.isfinite(run["vector[2]"]).all()

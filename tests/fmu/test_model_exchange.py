@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,6 +16,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks
 from acausal.fmu.derivatives import Differentiated
+from acausal.fmu.exchange import Exchange
 from tests.export.test_c import Chain
 from tests.support.fmus import need_fmpy
 from tests.support.hybrid import Ball, Sampled, Thermostat
@@ -163,6 +165,17 @@ def test_start_values_are_parameters(exported: Exported) -> None:
         np.testing.assert_allclose(run["h"][-1], h - 9.81 * 0.005, rtol=1e-12)
 
 
+def test_an_input_without_a_source_is_the_start_value(exported: Exported) -> None:
+    alone, given = (ac.compile(ac.FMU(exported(Mass), v)) for v in ({}, {"f": 0.0}))
+    assert alone.input_defaults == {"f": 0.0}  # as our exports have it
+    expected = ac.simulate(given, 0.1, dt=1e-2)["s"]
+    np.testing.assert_array_equal(ac.simulate(alone, 0.1, dt=1e-2)["s"], expected)
+    record = ac.Data(np.linspace(0, 0.1, 11), {"s": expected})
+    with pytest.warns(UserWarning, match="The data lack 'f': 'f' is 0 throughout, the start value"):
+        again = ac.simulate(alone, 0.1, dt=1e-2, inputs=record)
+    np.testing.assert_array_equal(again["s"], expected)
+
+
 def test_starts_of_states_are_guesses_that_x0_and_rest_replace(exported: Exported) -> None:
     system = ac.compile(ac.FMU(exported(Mass), {"f": 3.2, "s": 0.3}))
     assert system.initial_state()[0] == 0.3
@@ -199,6 +212,26 @@ def test_gradients_go_through_events(exported: Exported) -> None:
 
     found, expected = (jax.grad(lambda e, s=s: loss(s, e))(0.8) for s in (system, native))
     np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+def test_instances_go_back_to_states_that_they_had(
+    exported: Exported, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times: list[float] = []
+    happen = Exchange.happen
+
+    def counted(self: Exchange, time: float) -> Any:
+        times.append(time)
+        return happen(self, time)
+
+    monkeypatch.setattr(Exchange, "happen", counted)
+    system = ac.compile(ac.FMU(exported(Mass), {"f": 1.0}, step=0.01))  # an event each
+    last = lambda d: ac.simulate(system, 0.2, dt=0.01, params={"d": d})["s"][-1]  # noqa: E731
+    found = float(jax.grad(last)(2.0))
+    assert (
+        len(times) < 12 * 20
+    )  # five instances go there, and back; else each goes there again from the start
+    np.testing.assert_allclose(found, (last(2.001) - last(1.999)) / 2e-3, rtol=1e-5)
 
 
 @pytest.mark.slow
@@ -244,6 +277,18 @@ def test_a_model_with_an_fmu_is_not_exported(exported: Exported, tmp_path: Path)
     for write in (ac.export.fmu, ac.export.c, ac.export.onnx):
         with pytest.raises(ac.ExportError, match="'plant' is an FMU, whose equations nobody knows"):
             write(system, tmp_path / "model.fmu")
+
+
+def test_a_file_names_an_fmu_only_where_native_code_is_allowed(exported: Exported) -> None:
+    path = exported(Mass)
+    given = {"path": f'"{path.name}"', "values": {"f": 3.2}, "d": 2.5}
+    file = path.with_suffix(".json")  # paths are relative to it
+    part = {"class": "acausal.components.FMU", "with": given}
+    file.write_text(json.dumps({"components": {"plant": part}}))
+    with pytest.raises(ac.ModelError, match=r"components\.plant: .* load the model with allow_nat"):
+        ac.load(file)
+    known = ac.compile(ac.load(file, allow_native=True)).parameters()
+    assert (known["plant.f"], known["plant.d"]) == (3.2, 2.5)
 
 
 @pytest.mark.slow

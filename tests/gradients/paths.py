@@ -136,7 +136,7 @@ def substeps(s: Subject, shift: Array) -> Array:
     """The steps of a training, each of three parts, with outputs that share the first stage."""
     system, end = s.system, s.case.end
     ends = np.linspace(0.0, end, STEPS + 1)
-    functions = functions_of_time(system.inputs, s.case.inputs, (0.0, end), ends)
+    functions = functions_of_time(system, s.case.inputs, (0.0, end), ends)
     packed = system.pack(s.params(shift))
     u = evaluate_all(functions, jnp.zeros(1))[0]
     x = system.initial_state(packed, s.x0(shift), u, 0.0)

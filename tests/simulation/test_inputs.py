@@ -74,6 +74,23 @@ def test_records_may_say_what_comes_beyond(record, late):
     assert (float(push[0]), float(push[-1])) == pytest.approx((1.0, late))
 
 
+class Defaulted(ac.Component):
+    u = ac.Input(shape=2, default=(2.0, 3.0))
+    x = ac.Variable(fixed=True)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u[0] * self.u[1])
+
+
+def test_inputs_have_defaults():
+    system = ac.compile(Defaulted())
+    assert system.input_defaults == {"u[1]": 2.0, "u[2]": 3.0}
+    for inputs, x in (({}, 6.0), ({"u[2]": 5.0}, 10.0)):
+        assert ac.simulate(system, 1.0, dt=0.5, inputs=inputs)["x"][-1] == pytest.approx(x)
+        assert ac.linearize(system, inputs=inputs).A.shape == (1, 1)
+    assert system.input_values({"u[1]": 1.0}).tolist() == [1.0, 3.0]
+
+
 def test_rounded_times_reach_the_end():
     for ts in (
         0.1 * np.arange(11) * (1 - 1e-12),
@@ -81,7 +98,7 @@ def test_rounded_times_reach_the_end():
         np.linspace(0, 42, 42_001, dtype=np.float32),
     ):
         span = (0.0, 42.0 if len(ts) > 11 else 1.0)
-        (function,) = functions_of_time((PUSH,), {PUSH: (ts, np.ones(len(ts)))}, span)
+        (function,) = functions_of_time(plain(), {PUSH: (ts, np.ones(len(ts)))}, span)
         assert float(function(span[1])) == 1.0
 
 

@@ -2,6 +2,7 @@
 
 import functools
 import math
+import time
 
 import jax
 import jax.numpy as jnp
@@ -67,6 +68,28 @@ def test_interpolants_of_numpy_and_scipy_are_inputs() -> None:
     ]
     np.testing.assert_allclose(found[0].x, found[2].x, rtol=1e-9)
     np.testing.assert_allclose(found[1].x, found[2].x, rtol=1e-9)
+
+
+def test_calls_of_any_function_cost_microseconds() -> None:
+    """They are read where they lie in memory; a callback of JAX's takes some hundred."""
+    times: list[float] = []
+
+    def called(t: float) -> float:
+        times.append(time.perf_counter())
+        return math.sin(t)
+
+    np.asarray(ac.simulate(plain(), 1.0, dt=1e-3, solver="rk4", inputs={PUSH: called}).x)
+    assert np.percentile(np.diff(times), 10) < 50e-6
+
+
+def test_a_function_that_fails_later_says_why() -> None:
+    def fails(t: float) -> float:
+        return 1.0 / 0 if float(t) > 0.5 else 0.0
+
+    with pytest.raises(
+        jax.errors.JaxRuntimeError, match=r"Input 'push\.f': ZeroDivisionError: .*division by zero"
+    ):
+        np.asarray(ac.simulate(plain(), 1.0, dt=0.1, inputs={PUSH: fails}).x)
 
 
 @pytest.mark.slow

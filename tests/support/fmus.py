@@ -8,11 +8,13 @@ from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
 
-from tests.support.exported_c import need_compiler
+from acausal.fmu.archive import ENDING, PLATFORMS
+from tests.support.exported_c import compile_c, need_compiler
 
 
 def need_fmpy() -> Any:
@@ -21,6 +23,17 @@ def need_fmpy() -> Any:
     fmpy = pytest.importorskip("fmpy", reason="fmpy is not installed")
     importlib.import_module("fmpy.validation")
     return fmpy
+
+
+def compiled_fmu(folder: Path, name: str, description: str) -> Path:
+    """An FMU in a folder, of the source ``name.c`` beside this file, with a description."""
+    headers = Path(need_fmpy().__file__).parent / "c-code"
+    library, path = folder / f"{name}{ENDING}", folder / f"{name}.fmu"
+    compile_c([Path(__file__).with_name(f"{name}.c")], library, "-isystem", str(headers))
+    with ZipFile(path, "w") as archive:
+        archive.writestr("modelDescription.xml", description)
+        archive.write(library, f"binaries/{PLATFORMS[-1]}/{name}{ENDING}")
+    return path
 
 
 class Unpacked:

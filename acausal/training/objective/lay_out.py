@@ -157,7 +157,7 @@ def _rows(
         return rows
 
     span = float(grid.t[0]), float(grid.t[-1])
-    functions = functions_of_time(system.inputs, data, span, held=system.held_inputs)
+    functions = functions_of_time(system, data, span)
     inner = polynomials_over_steps(functions, grid.t)
     names = system.states[: system.reduced.n_independent] if states else ()
     nothing = np.full(len(data), np.nan)

@@ -106,7 +106,7 @@ def test_rows_of_a_training_see_their_own_side(name: str, kind: Any) -> None:
     ends = np.linspace(0, 1, n + 1)
     values = SAMPLES[1] if kind == "previous" else SAMPLES[1] / 4  # below the condition's threshold
     signal = ac.Signal(SAMPLES[0], values, kind)
-    functions = functions_of_time(system.inputs, {"u": signal}, (0.0, 1.0), ends)
+    functions = functions_of_time(system, {"u": signal}, (0.0, 1.0), ends)
     solver = (
         Adaptive() if name == "adaptive" else solvers.for_fixed_steps(solvers.solver_named(name))
     )  # pyright: ignore[reportArgumentType]

@@ -16,12 +16,11 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.fmu.library import BYTES
-
 Call = Callable[[int, int], object]
 """A function of two addresses: of the numbers that it takes, and of those that it gives."""
 
-NAME = "acausal_fmu"
+BYTES = C.sizeof(C.c_double)
+NAME = "acausal_host"
 VERSION = (0, 1)
 DOUBLE = 12
 INTERNAL = 13
@@ -77,20 +76,24 @@ class _Frame(C.Structure):
     )  # fmt: skip
 
 
+class HostError(Exception):
+    """It ends the program that calls, where numbers that are not finite would not be explained: in derivatives."""
+
+
 _CALLS: list[Call] = []
 
-FAILURES: dict[int, str] = {}
+HOST_FAILURES: dict[int, str] = {}
 """By the number of a function, why it last gave no numbers."""
 
 
-def register(call: Call) -> int:
+def register_host(call: Call) -> int:
     """A number by which compiled programs call a function; it holds for this process."""
     _registered()
     _CALLS.append(call)
     return len(_CALLS) - 1
 
 
-def called(number: int, given: Float[Array, " n"], shape: tuple[int, ...]) -> Array:
+def call_host(number: int, given: Float[Array, " n"], shape: tuple[int, ...]) -> Array:
     """The numbers that a registered function gives, in that shape; NaN where it fails.
 
     Arguments:
@@ -128,7 +131,7 @@ def _handle(address: C._Pointer[_Frame]) -> int | None:  # pyright: ignore[repor
             _call_single(given.data, found.data, rows, width, height)
         return None
     except BaseException as error:  # Ctrl-C, for example: none may pass through C
-        message = f"{type(error).__name__} {error}"
+        message = f"{error}" if isinstance(error, HostError) else f"{type(error).__name__} {error}"
         described = _Error(C.sizeof(_Error), None, message.encode(), INTERNAL)
         return frame.api[0].error(C.addressof(described))
 
@@ -139,9 +142,11 @@ def _call(given: int, found: int, rows: int, width: int, height: int) -> None:
         which = int(number(given).value)
         try:
             _CALLS[which](given + BYTES, found)
+        except HostError:
+            raise
         except Exception as error:
             if str(error):
-                FAILURES[which] = str(error)
+                HOST_FAILURES[which] = str(error)
             C.memset(found, 0xFF, BYTES * height)  # NaN
         given += BYTES * width
         found += BYTES * height

@@ -1,0 +1,72 @@
+"""An FMU written by hand in C: completed steps, event mode of co-simulation, and clocks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from tests.support.fmus import compiled_fmu
+
+DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="3.0" modelName="Counter" instantiationToken="counter">
+  <ModelExchange modelIdentifier="counter" needsCompletedIntegratorStep="true"/>
+  <CoSimulation modelIdentifier="counter" hasEventMode="true" canHandleVariableCommunicationStepSize="true"/>
+  <DefaultExperiment stepSize="0.1"/>
+  <ModelVariables>
+    <Float64 name="time" valueReference="0" causality="independent" variability="continuous"/>
+    <Float64 name="u" valueReference="1" causality="input" start="2"/>
+    <Float64 name="x" valueReference="2" causality="output"/>
+    <Float64 name="der(x)" valueReference="3" derivative="2"/>
+    <Float64 name="n" valueReference="4" causality="output" variability="discrete"/>
+    <Float64 name="rate" valueReference="5" causality="parameter" variability="tunable" start="0"/>
+  </ModelVariables>
+  <ModelStructure>
+    <Output valueReference="2"/>
+    <Output valueReference="4"/>
+    <ContinuousStateDerivative valueReference="3"/>
+  </ModelStructure>
+</fmiModelDescription>
+"""
+
+Counter = Callable[[str], Path]
+
+
+@pytest.fixture(scope="module")
+def counter(tmp_path_factory: pytest.TempPathFactory) -> Counter:
+    """The FMU, with a description."""
+    folder = tmp_path_factory.mktemp("counter")
+    return lambda description: compiled_fmu(folder, "counter", description)
+
+
+def test_an_fmu_is_told_of_completed_steps(counter: Counter) -> None:
+    part = ac.FMU(counter(DESCRIPTION))
+    assert "model exchange, with a completed step each 0.1 s" in repr(part)
+    run = ac.simulate(ac.compile(part), 1.2, dt=0.1)  # x comes to 1 after 0.5 s, and again
+    np.testing.assert_allclose(
+        np.asarray(run["x"])[[4, 5, 6, 9, 10, 12]], [0.8, 1, 0.2, 0.8, 1, 0.4], atol=1e-9
+    )
+    np.testing.assert_allclose(np.asarray(run["n"])[[4, 6, 11]], [0, 1, 2])
+    untold = counter(DESCRIPTION.replace(' needsCompletedIntegratorStep="true"', ""))
+    with pytest.raises(ac.DeclarationError, match="need not be told of completed steps"):
+        ac.FMU(untold, step=0.1)
+    with pytest.raises(ac.SimulationError, match=r"asks to end the simulation at 1\.6 s"):
+        ac.simulate(ac.compile(part), 3.0, dt=0.1)
+
+
+def test_events_of_a_co_simulation_end_its_steps(counter: Counter) -> None:
+    part = ac.FMU(counter(DESCRIPTION), {"u": 2.0}, kind="cs", step=0.2)
+    run = ac.simulate(ac.compile(part), 1.0, dt=0.2)
+    np.testing.assert_allclose(run["x"], 0.4 * np.arange(6), atol=1e-12)
+    np.testing.assert_allclose(run["n"], [0, 0, 1, 2, 3, 4])
+
+
+def test_clocks_are_refused(counter: Counter) -> None:
+    interval = 'intervalVariability="constant" intervalDecimal="1"'
+    clock = f'<Clock name="tick" valueReference="9" causality="input" {interval}/>'
+    path = counter(DESCRIPTION.replace("  </ModelVariables>", f"    {clock}\n  </ModelVariables>"))
+    with pytest.raises(ac.DeclarationError, match=r"'Counter' has the clock 'tick'"):
+        ac.FMU(path)
