@@ -181,17 +181,19 @@ class Template(LeavesCaches):
     @cache
     def solved(self, column: int) -> sp.Expr | None:
         """The slot as an explicit expression of the others; None where the residual is not linear in it."""
-        symbol, factor = self.variables[column], self.partial(column)
-        if factor == 0 or symbol in factor.free_symbols or symbol in self._deciding():
+        if not self.is_solvable(column):
             return None
+        symbol, factor = self.variables[column], self.partial(column)
         rest: Any = self.residual.xreplace({symbol: sp.S.Zero})
         if rest.has(sp.nan, sp.zoo, sp.oo):
             rest = sp.expand(self.residual - factor * symbol)
         return -rest / factor
 
+    @cache
     def is_solvable(self, column: int) -> bool:
         """Whether the slot can be computed from the others by an expression."""
-        return self.solved(column) is not None
+        symbol, factor = self.variables[column], self.partial(column)
+        return factor != 0 and symbol not in factor.free_symbols | self._deciding()
 
     @cache
     def is_safely_solvable(self, column: int) -> bool:

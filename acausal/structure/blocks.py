@@ -21,8 +21,9 @@ from acausal.structure.equations import Equations
 from acausal.structure.sparse_loops import SparseLoop, sparse_loop
 from acausal.structure.tearing_pays import tearing_pays
 
-LARGE, WRITTEN = 100, 200
-"""A loop of more unknowns is torn only where that pays, or not at all: XLA compiles a torn one equation by equation."""
+LARGE, WRITTEN, TERMS = 100, 200, 600
+"""A loop of more unknowns is torn only where that pays, or not at all: XLA compiles a torn one equation by equation.
+The same holds for one whose equations read more variables."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,8 @@ def order_steps(
         unknowns = [variable_of[e] for e in equations]
         e = equations[0]
         template, column = system.template[e], system.variables[e].index(unknowns[0])
-        is_large = len(equations) > LARGE
+        n_terms = sum(len(system.variables[e]) for e in equations)
+        is_large = len(equations) > LARGE or n_terms > TERMS
         if is_large and not (
             len(equations) <= WRITTEN
             and tearing_pays(system, equations, unknowns, vanishing, values)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -237,3 +238,19 @@ def test_gradients_of_a_simulation_in_every_mode():
     forward = jax.jit(lambda r: jax.jvp(loss, (r,), (1.0,)))
     for found in ((values[1], gradients[1]), backward(r), forward(r)):
         np.testing.assert_allclose(found, (values[1], slope), rtol=1e-6)
+
+
+def test_a_dense_loop_with_many_terms_is_solved_as_a_matrix() -> None:
+    n = 30
+    matrix = np.random.default_rng(0).normal(size=(n, n)) + n * np.eye(n)
+
+    def equations(s: Any) -> Iterator[ac.Eq]:
+        unknowns = [getattr(s, f"y{i}") for i in range(n)]
+        yield ac.Eq(ac.der(s.x), unknowns[0])
+        for i, row in enumerate(matrix.tolist()):
+            yield ac.Eq(sum(a * y for a, y in zip(row, unknowns, strict=True)), (i + 1) * s.x)
+
+    system = ac.compile(Equations(" ".join(["x", *(f"y{i}" for i in range(n))]), equations))
+    assert any(isinstance(s, SparseLoop) for s in system.reduced.steps)
+    found = system.observe([f"y{i}" for i in range(n)], 0.0, np.ones(1), None, system.pack())
+    np.testing.assert_allclose(found, np.linalg.solve(matrix, np.arange(1.0, n + 1)), rtol=1e-9)
