@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from acausal.codegen.instructions import Explicit
+from acausal.codegen.instructions import ExplicitInstruction
 from acausal.codegen.program import Program
 from acausal.errors import listing
 from acausal.flattening import Integers
@@ -19,7 +19,7 @@ def described(program: Program, number: int, name: Callable[[int], str]) -> str:
     instruction, first = program.instructions[number], program.first[number]
     rows = program.nodes[first : first + instruction.outputs]
     names = [_all(name, row) for row in rows]
-    if isinstance(instruction, Explicit):
+    if isinstance(instruction, ExplicitInstruction):
         return f"{names[0]}{instruction.text}"
     return f"{listing(names, 6)}: {'linear ' if instruction.is_linear else ''}equations"
 

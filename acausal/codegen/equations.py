@@ -121,22 +121,14 @@ class _Writer:
 
     # -- rules: what an instruction needs for one value, and how that value is written ------------------
 
-    def formula_needs(self, one: ArrayFormula, place: Place) -> list[Place]:
-        return self._read(one.arguments, one.size, place[1])
-
-    def formula(self, one: ArrayFormula, place: Place) -> None:
-        self._values[place] = self._formula(one, place[1])
-
-    def _formula(self, one: ArrayFormula, row: int) -> sp.Expr:
-        return _readable(one.expression.xreplace(self._slots(one.arguments, one.size, row)))
-
-    def unlike_needs(self, one: UnlikeFormulas, place: Place) -> list[Place]:
+    def formula_needs(self, one: ArrayFormula | UnlikeFormulas, place: Place) -> list[Place]:
         formula, row = one.at(place[1])
         return self._read(formula.arguments, formula.size, row)
 
-    def unlike(self, one: UnlikeFormulas, place: Place) -> None:
+    def formula(self, one: ArrayFormula | UnlikeFormulas, place: Place) -> None:
         formula, row = one.at(place[1])
-        self._values[place] = self._formula(formula, row)
+        names = self._slots(formula.arguments, formula.size, row)
+        self._values[place] = _readable(formula.expression.xreplace(names))
 
     def accumulate_needs(self, one: Accumulate, place: Place) -> list[Place]:
         return self.places(one.values, one.terms * one.size)[place[1] :: one.size]
@@ -189,7 +181,7 @@ class _Writer:
 
 _RULES: dict[type, tuple[Callable[..., list[Place]], Callable[..., None]]] = {
     ArrayFormula: (_Writer.formula_needs, _Writer.formula),
-    UnlikeFormulas: (_Writer.unlike_needs, _Writer.unlike),
+    UnlikeFormulas: (_Writer.formula_needs, _Writer.formula),
     Accumulate: (_Writer.accumulate_needs, _Writer.accumulate),
     SolveTornLoop: (_Writer.torn_loop_needs, _Writer.torn_loop),
     SolveSparseLoop: (_Writer.sparse_loop_needs, _Writer.sparse_loop),

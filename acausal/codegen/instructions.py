@@ -45,15 +45,33 @@ class Arguments:
         return {s for part in (self.variables, self.parameters, self.modules) for s, _ in part}
 
 
+class ExplicitInstruction:
+    """An instruction that solves nothing: it fills one array."""
+
+    outputs = 1
+
+    @property
+    def text(self) -> str:
+        """The right-hand side in words."""
+        raise NotImplementedError
+
+    def text_at(self, row: int) -> str:
+        """That of a row."""
+        del row
+        return self.text
+
+    def found_with(self, place: Place) -> list[Place]:
+        """The values that are computed with this one: only itself."""
+        return [place]
+
+
 @dataclass(frozen=True)
-class ArrayFormula:
+class ArrayFormula(ExplicitInstruction):
     """One expression for ``size`` instances; as an instruction it fills an array with its values."""
 
     expression: sp.Expr
     arguments: Arguments
     size: int
-
-    outputs = 1
 
     @property
     def sources(self) -> set[int]:
@@ -65,18 +83,13 @@ class ArrayFormula:
         """The right-hand side in words."""
         return f" = {self.expression}"
 
-    def text_at(self, row: int) -> str:
-        """That of every row."""
-        del row
-        return self.text
-
-    def found_with(self, place: Place) -> list[Place]:
-        """The values that are computed with this one: only itself."""
-        return [place]
+    def at(self, row: int) -> tuple[ArrayFormula, int]:
+        """The formula that gives a row, and which of its instances that is."""
+        return self, row
 
 
 @dataclass(frozen=True)
-class UnlikeFormulas(LeavesCaches):
+class UnlikeFormulas(ExplicitInstruction, LeavesCaches):
     """Many formulas, whose values lie one behind the other in one array.
 
     Attributes:
@@ -95,8 +108,10 @@ class UnlikeFormulas(LeavesCaches):
     size: int
     first: int
 
-    outputs = 1
-    text = ", unlike formulas,"
+    @property
+    def text(self) -> str:
+        """The right-hand side in words."""
+        return ", unlike formulas,"
 
     @cached_property
     def sources(self) -> set[int]:
@@ -113,13 +128,9 @@ class UnlikeFormulas(LeavesCaches):
         """The right-hand side of a row in words."""
         return self.at(row)[0].text
 
-    def found_with(self, place: Place) -> list[Place]:
-        """The values that are computed with this one: only itself."""
-        return [place]
-
 
 @dataclass(frozen=True)
-class Accumulate:
+class Accumulate(ExplicitInstruction):
     """Add up ``terms`` values each for ``size`` instances: ``sum(weights * value)``.
 
     Attributes:
@@ -132,22 +143,15 @@ class Accumulate:
     terms: int
     size: int
 
-    outputs = 1
-    text = ", a sum,"
+    @property
+    def text(self) -> str:
+        """The right-hand side in words."""
+        return ", a sum,"
 
     @property
     def sources(self) -> set[int]:
         """The arrays that are read."""
         return set(self.values.sources)
-
-    def text_at(self, row: int) -> str:
-        """That of every row."""
-        del row
-        return self.text
-
-    def found_with(self, place: Place) -> list[Place]:
-        """The values that are computed with this one: only itself."""
-        return [place]
 
 
 @dataclass(frozen=True)
@@ -276,7 +280,4 @@ class SolveSparseLoop(LeavesCaches):
         return [(place[0], i) for i in range(self.size)]
 
 
-Explicit = ArrayFormula | UnlikeFormulas | Accumulate
-"""Instructions that solve nothing."""
-
-Instruction = Explicit | SolveTornLoop | SolveSparseLoop
+Instruction = ArrayFormula | UnlikeFormulas | Accumulate | SolveTornLoop | SolveSparseLoop

@@ -11,7 +11,7 @@ from jax import Array
 from acausal.codegen.dense_loop import nearest_of_torn_loop
 from acausal.codegen.instructions import (
     ArrayFormula,
-    Explicit,
+    ExplicitInstruction,
     Place,
     SolveSparseLoop,
     SolveTornLoop,
@@ -53,7 +53,7 @@ def explain_nonfinite(
         place = (asked or bad)[0]
         together = instruction.found_with(place)
         names = [name(int(program.nodes[first + array][row])) for array, row in together]
-        if isinstance(instruction, Explicit):
+        if isinstance(instruction, ExplicitInstruction):
             if reason := said_by_modules(_called(instruction, values)):
                 return f"'{names[0]}' cannot be computed. {reason}"
             value = np.atleast_1d(np.asarray(results[place[0]]))[place[1]]
@@ -79,7 +79,7 @@ def said_by_modules(modules: Iterable[Any]) -> str | None:
     return next((reason for why in asked if why and (reason := why())), None)
 
 
-def _called(instruction: Explicit, values: Values) -> list[Any]:
+def _called(instruction: ExplicitInstruction, values: Values) -> list[Any]:
     """The modules that a formula calls."""
     slots = instruction.arguments.modules if isinstance(instruction, ArrayFormula) else ()
     return [values.packed.modules[m] for _, modules in slots for m in modules]

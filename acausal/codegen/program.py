@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from acausal.codegen.gather import Elements, Gather, gather
-from acausal.codegen.instructions import Explicit, Instruction
+from acausal.codegen.instructions import ExplicitInstruction, Instruction
 from acausal.flattening import Integers, LeavesCaches
 
 FEW = 12
@@ -103,13 +103,13 @@ class Program(LeavesCaches):
     def iterates(self, nodes: Sequence[int]) -> bool:
         """Whether values of some nodes depend on loops that are not linear."""
         some = [self.instructions[i] for i in self.needed(self.gather(nodes).sources)]
-        return any(not isinstance(one, Explicit) and not one.is_linear for one in some)
+        return any(not isinstance(one, ExplicitInstruction) and not one.is_linear for one in some)
 
     @cached_property
     def is_long(self) -> bool:
         """Whether XLA takes long for the rates: they are of many instructions, or there are loops to solve."""
         some = [self.instructions[i] for i in self.needed(self.rate_sources)]
-        simple = all(isinstance(one, Explicit) for one in some)
+        simple = all(isinstance(one, ExplicitInstruction) for one in some)
         return len(some) > FEW or not simple
 
     @cached_property
