@@ -7,7 +7,7 @@ from pathlib import Path
 from types import ModuleType
 
 from acausal import netlist
-from acausal.errors import ModelError, listing, nearest, shown
+from acausal.errors import ModelError, listing, nearest, need_flag, shown
 from acausal.files import need_path
 from acausal.modelica.build import class_of
 from acausal.modelica.classes import ClassNode
@@ -53,7 +53,8 @@ def load(
         return netlist.load(file, libraries, budget=budget, allow_native=allow_native)
     allowed = Budget() if budget is None else budget
     tree = Tree(netlist.libraries_of(libraries), [Path(p) for p in path])
-    with spending(allowed, file.parent if allow_native else None):
+    native = need_flag(allow_native, "load: allow_native", ModelError)
+    with spending(allowed, file.parent if native else None):
         nodes = tree.add(file / "package.mo" if file.is_dir() else file)
         found = class_of(_wanted(file, tree, nodes, model))()
         netlist.check_sizes(found)

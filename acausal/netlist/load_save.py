@@ -27,7 +27,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from acausal.errors import ModelError, shown
+from acausal.errors import ModelError, need_flag, shown
 from acausal.files import need_path
 from acausal.modeling import Budget, BudgetError, Component, Declaration, spending
 from acausal.netlist import file as netlist_file
@@ -62,7 +62,8 @@ def load(
     """
     path, known = need_path(path, "load", ModelError), libraries_of(libraries)
     allowed = Budget() if budget is None else budget
-    with spending(allowed, path.parent if allow_native else None):
+    native = need_flag(allow_native, "load: allow_native", ModelError)
+    with spending(allowed, path.parent if native else None):
         document = netlist_file.read(path)
         model = within(path.name, lambda: build(document, path.name, known))
         within(path.name, lambda: check_sizes(model))

@@ -287,6 +287,8 @@ def test_a_file_names_an_fmu_only_where_native_code_is_allowed(exported: Exporte
     file.write_text(json.dumps({"components": {"plant": part}}))
     with pytest.raises(ac.ModelError, match=r"components\.plant: .* load the model with allow_nat"):
         ac.load(file)
+    with pytest.raises(ac.ModelError, match="load: allow_native='no'; give True or False"):
+        ac.load(file, allow_native="no")  # pyright: ignore[reportArgumentType]
     known = ac.compile(ac.load(file, allow_native=True)).parameters()
     assert (known["plant.f"], known["plant.d"]) == (3.2, 2.5)
 

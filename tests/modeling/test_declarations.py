@@ -128,3 +128,9 @@ def test_a_module_call_needs_expressions():
 def test_time_is_a_real_symbol():
     assert time is ac.time
     assert time.is_real
+
+
+def test_the_default_of_an_input_is_a_number():
+    assert ac.Input(default=(1.0, 2)).default == (1.0, 2)
+    with pytest.raises(ac.DeclarationError, match="default='three' must be a number"):
+        ac.Input(default="three")
