@@ -223,12 +223,19 @@ class Input(Variable):
     def __init__(self, *, kind: Kind = "real", default: Any = None, **others: Any) -> None:
         if not isinstance(kind, str) or kind not in KINDS:
             raise DeclarationError(f"kind={shown(kind)} must be one of {', '.join(KINDS)}")
-        if default is not None and np.asarray(default).dtype.kind not in "biuf":
+        if default is not None and not _are_numbers(default):
             raise DeclarationError(
                 f"default={shown(default)} must be a number, or a tuple of numbers"
             )
         super().__init__(**others)
         self.kind, self.default = kind, default
+
+
+def _are_numbers(value: Any) -> bool:
+    try:
+        return np.asarray(value).dtype.kind in "biuf"
+    except (TypeError, ValueError):  # of a ragged tuple, or of one of JAX's keys
+        return False
 
 
 class Output(Variable):

@@ -3,6 +3,7 @@
 import math
 
 import equinox as eqx
+import jax
 import numpy as np
 import pytest
 import sympy as sp
@@ -132,5 +133,6 @@ def test_time_is_a_real_symbol():
 
 def test_the_default_of_an_input_is_a_number():
     assert ac.Input(default=(1.0, 2)).default == (1.0, 2)
-    with pytest.raises(ac.DeclarationError, match="default='three' must be a number"):
-        ac.Input(default="three")
+    for wrong in ("three", ((1.0,), 2.0), jax.random.key(0)):
+        with pytest.raises(ac.DeclarationError, match=r"default=.* must be a number"):
+            ac.Input(default=wrong)
