@@ -23,6 +23,7 @@ from acausal.codegen.interpreter import (
     execute as execute,
     rates as rates,
     rates_and_read as rates_and_read,
+    rates_from as rates_from,
     read as read,
     run as run,
 )

@@ -33,7 +33,7 @@ INSTRUCTION = "instruction_"
 
 def rates(program: Program, values: Values) -> Float[Array, " n_states"]:
     """Derivatives of the states."""
-    return _rates(program, values, run(program, program.rate_sources, values))
+    return rates_from(program, values, run(program, program.rate_sources, values))
 
 
 def read(program: Program, nodes: Sequence[int], values: Values) -> Float[Array, " n_nodes"]:
@@ -50,7 +50,7 @@ def rates_and_read(
     wanted = program.gather(nodes)
     arrays = run(program, {*wanted.sources, *program.rate_sources}, values)
     found = jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
-    return _rates(program, values, arrays), found
+    return rates_from(program, values, arrays), found
 
 
 def results(program: Program, values: Values, numbers: Sequence[int]) -> list[Array]:
@@ -76,7 +76,7 @@ def rates_and_residuals(
             residuals += _RESIDUALS[type(instruction)](instruction, values, arrays, given[i])
         found = given[i] if i in given else execute(instruction, values, arrays)
         _fill(program, arrays, i, found)
-    return _rates(program, values, arrays), residuals
+    return rates_from(program, values, arrays), residuals
 
 
 def steps(
@@ -127,7 +127,10 @@ def _fill(program: Program, arrays: list[Any], i: int, results: list[Array]) -> 
     arrays[first : first + len(results)] = results
 
 
-def _rates(program: Program, values: Values, arrays: list[Any]) -> Array:
+def rates_from(
+    program: Program, values: Values, arrays: Sequence[Any]
+) -> Float[Array, " n_states"]:
+    """Derivatives of the states, from the arrays that they are read in."""
     if program.state_rates is None:
         return jnp.zeros_like(values.x)
     found = jnp.broadcast_to(read_elements(program.state_rates, arrays), values.x.shape)

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
-from acausal.codegen import DISCRETE, ArrayFormula, Arrays, Values, compute, run
+from acausal.codegen import DISCRETE, ArrayFormula, Arrays, Values, compute, rates_from, run
 from acausal.events.event_formulas import Events, Update
 
 
@@ -24,6 +24,21 @@ def guards(
     """
     wanted = [g.formula for g in events.guards if g.timed or not timed]
     arrays = _arrays(events, wanted, now, now if before is None else before)
+    return _numbers(events, now, arrays, timed)
+
+
+def guards_and_rates(
+    events: Events, now: Values
+) -> tuple[Float[Array, " n_guards"], Float[Array, " n_states"]]:
+    """The numbers of `guards` between events, and the derivatives of the states; what both read is computed once."""
+    program = events.program
+    arrays = _arrays(events, [g.formula for g in events.guards], now, now, program.rate_sources)
+    return _numbers(events, now, arrays), rates_from(program, now, arrays)
+
+
+def _numbers(
+    events: Events, now: Values, arrays: Arrays, timed: bool = False
+) -> Float[Array, " n_guards"]:
     numbers = [
         _value(g.formula, now, arrays) if g.timed or not timed else 0.0 for g in events.guards
     ]
@@ -92,10 +107,14 @@ def jumped(events: Events, now: Values, before: Values) -> Float[Array, " n_stat
 
 
 def _arrays(
-    events: Events, formulas: Sequence[ArrayFormula], now: Values, before: Values
+    events: Events,
+    formulas: Sequence[ArrayFormula],
+    now: Values,
+    before: Values,
+    others: Sequence[int] = (),
 ) -> list[Any]:
-    """What the formulas read: the program's arrays now, and those before the event."""
-    sources, program = {s for f in formulas for s in f.sources}, events.program
+    """What the formulas read, and some other arrays: the program's arrays now, and those before the event."""
+    sources, program = {*others, *(s for f in formulas for s in f.sources)}, events.program
     return [
         a
         for k, at in enumerate((now, before))

@@ -25,7 +25,7 @@ from acausal.simulation.steps.multistep import (
     slopes,
     weights,
 )
-from acausal.simulation.steps.one_step import defect, first_length, look_inside
+from acausal.simulation.steps.one_step import defect, first_step, look_inside
 from acausal.simulation.steps.problem import Attempt, Counts, Integration, RightHandSide
 
 State = Float[Array, " n_states"]
@@ -114,8 +114,7 @@ class Multistep(eqx.Module):
 
     def begin(self, problem: Integration, t: Array, x: State) -> tuple[MultistepMemory, Counts]:
         """What is known at the begin, or after a jump: one state."""
-        f = problem.field(t, x)
-        h = first_length(problem, t, x, f, 1.0)
+        f, h = first_step(problem, t, x, 1.0)
         back = jnp.arange(POINTS)
         states = x - (h * back)[:, None].astype(x.dtype) * lax.stop_gradient(f)
         zero, one = jnp.zeros((), jnp.int32), jnp.ones((), jnp.int32)

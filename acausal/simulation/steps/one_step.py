@@ -153,8 +153,7 @@ class OneStep(eqx.Module):
 
     def begin(self, problem: Integration, t: Array, x: State) -> tuple[Memory, Counts]:
         """What is known at the begin, or after a jump; and what that cost."""
-        f = problem.field(t, x)
-        h = first_length(problem, t, x, f, self._order)
+        f, h = first_step(problem, t, x, self._order)
         zero = jnp.zeros((), jnp.int32)
         return Memory(h, x, self.first(problem.field, t, h, x, f), zero, zero), Counts.of(rates=2)
 
@@ -300,21 +299,39 @@ def part_of_step(t: Array, h: Array, at: Array) -> Array:
     return jnp.where(none, 1.0, (at - t) / jnp.where(none, 1.0, h))
 
 
-def first_length(problem: Integration, t: Array, x: State, f: State, order: float) -> Array:
-    """A length for the first step (Hairer, Nørsett & Wanner 1993, II.4)."""
-    x, f = lax.stop_gradient((x, f))
-    d0, d1 = problem.size(x, x), problem.size(f, x)
-    small = (d0 < 1e-5) | (d1 < 1e-5)
-    h0 = jnp.where(small, 1e-6, 0.01 * d0 / jnp.where(small, 1.0, d1))
-    h0 = jnp.minimum(h0, problem.end - t)
-    other = lax.stop_gradient(problem.field(t + h0, x + h0 * f))
-    d2 = problem.size(other - f, x) / h0
+def first_step(
+    problem: Integration, t: Array, x: State, order: float
+) -> tuple[State, Float[Array, ""]]:
+    """The derivative, and a length for the first step (Hairer, Nørsett & Wanner 1993, II.4)."""
+    fixed = lax.stop_gradient(x)
+    d0 = problem.size(fixed, fixed)
+
+    def a_little(f: State) -> tuple[Array, Array]:
+        """How fast the state moves, and a length after which the right-hand side is looked at once more."""
+        d1 = problem.size(f, fixed)
+        small = (d0 < 1e-5) | (d1 < 1e-5)
+        h0 = jnp.where(small, 1e-6, 0.01 * d0 / jnp.where(small, 1.0, d1))
+        return d1, jnp.minimum(h0, problem.end - t)
+
+    def go_on(at: tuple[Array, State], _: None) -> tuple[tuple[Array, State], State]:
+        f = problem.field(*at)
+        known = lax.stop_gradient(f)
+        h0 = a_little(known)[1]
+        return (at[0] + h0.astype(t.dtype), fixed + (h0 * known).astype(x.dtype)), f
+
+    if problem.field.is_long:
+        f, other = lax.scan(go_on, (t, x), length=2)[1]
+    else:
+        there, f = go_on((t, x), None)
+        other = problem.field(*there)
+    d1, h0 = a_little(lax.stop_gradient(f))
+    d2 = problem.size(lax.stop_gradient(other - f), fixed) / h0
     largest = jnp.maximum(d1, d2)
     flat = largest <= 1e-15
     h1 = (0.01 / jnp.where(flat, 1.0, largest)) ** (1 / (order + 1))
     h = jnp.minimum(100 * h0, jnp.where(flat, jnp.maximum(1e-6, h0 * 1e-3), h1))
     h = jnp.where(jnp.isfinite(h), h, h0 * 1e-3)
-    return lax.stop_gradient(h.astype(x.dtype))
+    return f, lax.stop_gradient(h.astype(x.dtype))
 
 
 def _term(field: RightHandSide) -> dfx.ODETerm[Any]:

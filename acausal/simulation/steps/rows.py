@@ -12,7 +12,7 @@ from jaxtyping import Array, Float, Int
 
 from acausal._jax import without_derivatives
 from acausal.codegen import Values
-from acausal.events import After, Rates, due, fire, guards
+from acausal.events import After, Rates, due, fire, guards, guards_and_rates
 from acausal.simulation.steps.problem import Integration
 
 FREE, STOP, BEND, EDGE, RESTART, JUMP, TIMED, STATE = range(8)
@@ -172,8 +172,9 @@ def rates_at(problem: Integration, t: Array) -> Rates:
 
     def rates(x: Array, d: Array) -> tuple[Array, Array]:
         field = problem.held(d).field
-        number = lambda t, x: guards(events, field.at(t).values(x))  # noqa: E731
-        return jax.jvp(number, (t, x), (jnp.ones_like(t), field(t, x)))
+        both = lambda t, x: guards_and_rates(events, field.at(t).values(x))  # noqa: E731
+        (number, rate), change = jax.linearize(both, t, x)
+        return number, change(jnp.ones_like(t), rate)[0]
 
     return rates
 
