@@ -206,7 +206,7 @@ def _matrix(value: LaneValue, summed: Shape) -> Array:
 
 
 def _scan(equation: Equation, inputs: list[LaneValue], width: int) -> list[Array]:
-    body, n, m, options = primitives.scan_of(equation)
+    body, n, m, options = primitives.scan_of(equation.params)
     constants, start, rows = inputs[:n], inputs[n : n + m], inputs[n + m :]
 
     def step(carry: list[Array], row: list[Array]) -> tuple[list[Array], list[Array]]:

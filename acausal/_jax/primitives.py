@@ -113,20 +113,24 @@ def parameters(equation: Equation) -> tuple[Any, ...]:
     Raises:
         UnknownEquationError: if JAX calls them something else.
     """
-    wanted = PARAMETERS[name_of(equation)]
-    if missing := [name for name in wanted if name not in equation.params]:
-        raise UnknownEquationError(f"'{name_of(equation)}' has no parameter {', '.join(missing)}")
-    return tuple(equation.params[name] for name in wanted)
+    return _read(name_of(equation), equation.params)
 
 
-def scan_of(equation: Equation) -> Scan:
-    """The parts of a scan.
+def _read(name: str, params: Mapping[str, Any]) -> tuple[Any, ...]:
+    wanted = PARAMETERS[name]
+    if missing := [parameter for parameter in wanted if parameter not in params]:
+        raise UnknownEquationError(f"'{name}' has no parameter {', '.join(missing)}")
+    return tuple(params[parameter] for parameter in wanted)
+
+
+def scan_of(params: Mapping[str, Any]) -> Scan:
+    """The parts of a scan, from its parameters.
 
     Raises:
         UnknownEquationError: if JAX writes scans in another way.
     """
-    body, *options = parameters(equation)
-    n_constants, n_carry = _shared_and_carried(equation.params)
+    body, *options = _read(SCAN, params)
+    n_constants, n_carry = _shared_and_carried(params)
     names = PARAMETERS[SCAN][1:]
     return Scan(_closed(body), n_constants, n_carry, dict(zip(names, options, strict=True)))
 

@@ -91,7 +91,7 @@ class ParameterLayout(LeavesCaches):
             raise DataError(f"params lacks {listing(missing)}; start from system.parameters(key)")
 
     def range_of(self, name: str) -> tuple[float, float]:
-        """The least and the largest value of a free parameter that its declaration allows."""
+        """The least and the largest value of a free parameter, infinite where none is declared."""
         i = self.names.index(name)
         low, high = self._ranges
         return float(low[i]), float(high[i])
@@ -121,11 +121,6 @@ class ParameterLayout(LeavesCaches):
         declared = [self.model.layout.parameter_declaration(int(i)) for i in self.free]
         low = [-np.inf if d.min is None else d.min for d in declared]
         return np.asarray(low), np.asarray([np.inf if d.max is None else d.max for d in declared])
-
-    def declared_range(self, name: str) -> tuple[float, float]:
-        """The least and the largest value of a free parameter, infinite where none is declared."""
-        low, high = (float(limits[self.names.index(name)]) for limits in self._ranges)
-        return low, high
 
     def why_not_free(self, name: str) -> str | None:
         """A clause on a parameter of the model that cannot be changed; None for any other name."""

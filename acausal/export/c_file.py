@@ -21,7 +21,7 @@ from acausal.export.c_text.steps import scheme_named
 from acausal.export.c_text.target_text import target_header, target_source, target_text
 from acausal.export.c_text.text import ModelText
 from acausal.export.names import NameRange, runs
-from acausal.export.needs import need_exportable
+from acausal.export.needs import all_parameters, need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.export.target import target_of
 from acausal.export.vector import ParameterVector
@@ -116,9 +116,7 @@ def model_text(
     real = PRECISION[precision(dtype).name]
     wanted = tuple(system.states) if outputs is None else names_in(outputs, "export: outputs")
     need_known("export", params)
-    given = system.parameters() if params is None else params
-    system.pack(given)
-    system.layout.need_modules(given)
+    given = all_parameters(system, params)
     vector = ParameterVector(system, given)
     scheme = scheme_named(solver)
     code = write_code(

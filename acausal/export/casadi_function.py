@@ -128,7 +128,7 @@ class _Walk:
         )
 
     def _scan(self, equation: Equation, arguments: list[Known]) -> list[Known]:
-        scan = scan_of(equation)
+        scan = scan_of(equation.params)
         fixed, n = arguments[: scan.n_constants], scan.n_constants + scan.n_carry
         carried, rows = arguments[scan.n_constants : n], [_objects(a) for a in arguments[n:]]
         length = int(scan.options["length"])

@@ -84,9 +84,8 @@ class ParameterVector:
     @cached_property
     def values(self) -> np.ndarray:
         """The vector, shape (size,)."""
-        layout, own = self.system.layout, self.system.layout.model.value[self.system.layout.free]
-        numbers = [self.params.get(n, v) for n, v in zip(layout.names, own, strict=True)]
-        free = np.asarray(numbers, dtype=float)[layout.order]
+        layout = self.system.layout
+        free = np.asarray([self.params[n] for n in layout.names], dtype=float)[layout.order]
         leaves = [
             np.ravel(leaf) for _, arrays, _ in self._modules for leaf in jax.tree.leaves(arrays)
         ]

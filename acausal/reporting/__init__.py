@@ -5,6 +5,7 @@ It does not know the classes of results, whose methods such as `Fit.report` call
 with the attributes of a small protocol.
 """
 
+from acausal.reporting.axes import one_axes as one_axes
 from acausal.reporting.document.builder import Page as Page, write_json as write_json
 from acausal.reporting.document.content import (
     Animation as Animation,
@@ -57,14 +58,7 @@ from acausal.reporting.plot import (
     InputStatistics as InputStatistics,
     UncertainCurve as UncertainCurve,
     plot_band as plot_band,
-    plot_guides as plot_guides,
     plot_learned as plot_learned,
-    plot_losses as plot_losses,
-    plot_modifiers as plot_modifiers,
-)
-from acausal.reporting.profiles import (
-    Profiled as Profiled,
-    plot_profile as plot_profile,
 )
 from acausal.reporting.short_names import Short as Short, shorten as shorten
 from acausal.reporting.variants import plot_variants as plot_variants

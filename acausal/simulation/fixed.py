@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import diffrax as dfx
@@ -13,14 +14,14 @@ from numpy.typing import NDArray
 
 from acausal._jax import array, cast, compiled, known, numpy_or_jax, select, traced
 from acausal.codegen import Packed, Values
-from acausal.errors import SimulationError
+from acausal.errors import SimulationError, user_level
 from acausal.simulation import solvers
 from acausal.simulation.fixed_steps import SIDE, Steps, integrate
 from acausal.simulation.inputs import breaks, evaluate_all
 from acausal.simulation.run import Run
 from acausal.simulation.sampled_inputs import over_steps
 from acausal.simulation.solution import Solution
-from acausal.simulation.stability import FAR, is_rough, warn_of_long_steps
+from acausal.simulation.stability import FAR, is_rough, long_steps
 from acausal.simulation.step_grid import ON_GRID, rows_of
 from acausal.simulation.tableau import tableau_of
 
@@ -147,8 +148,8 @@ def _check(
 def _check_steps(system: System, trajectory: Values, h: float, limit: float) -> None:
     """Warn where states are rough, or derivatives are taken, in steps outside the solver's region of stability."""
     values = known(trajectory)
-    if values is not None:
-        warn_of_long_steps(system, values, h, limit)
+    if values is not None and (sentence := long_steps(system, values, h, limit)):
+        warnings.warn(sentence, stacklevel=user_level())
 
 
 def _advice(modes: NDArray[np.complex128], dt: float) -> str:

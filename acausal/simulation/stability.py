@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING
 
 import jax
@@ -12,7 +11,6 @@ from numpy.typing import NDArray
 
 from acausal._jax import compiled
 from acausal.codegen import Values
-from acausal.errors import user_level
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -92,12 +90,6 @@ def modes(system: System, points: Values) -> NDArray[np.complex128] | None:
     """
     jacobians = np.asarray(_jacobians(system, points))
     return np.linalg.eigvals(jacobians).astype(complex) if np.isfinite(jacobians).all() else None
-
-
-def warn_of_long_steps(system: System, values: Values, h: float, limit: float = FAR) -> None:
-    """Warn of such steps."""
-    if sentence := long_steps(system, values, h, limit):
-        warnings.warn(sentence, stacklevel=user_level())
 
 
 @compiled

@@ -85,7 +85,7 @@ def build_problem(
     names_of_networks = trained_networks(system, options.train, params)
     layout = system.layout
     trained_parameters = modifiers(
-        options.modifiers, options.gamma, params, layout.why_not_free, layout.declared_range
+        options.modifiers, options.gamma, params, layout.why_not_free, layout.range_of
     )
     times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
     trained_parameters = trained_parameters.joined(moving)
@@ -137,7 +137,7 @@ def build_problem(
         },
         networks=names_of_networks,
         modifiers=trained_parameters,
-        parameter_spread=parameter_spread(options.parameter_spread, params, layout.declared_range),
+        parameter_spread=parameter_spread(options.parameter_spread, params, layout.range_of),
         per_record=per_record(system, options.per_record, params, records.count),
         timing=times,
         targets=targets,

@@ -23,9 +23,6 @@ LOGGER = logging.getLogger(__name__)
 
 KIND = "checkpoint of a training, version 3"
 
-EARLIER = ("checkpoint of a training, version 1", "checkpoint of a training, version 2")
-"""The kinds of earlier versions of acausal, with other names in them."""
-
 LOG = "log {}: "
 """Prefix of the names of a training log's columns in a file."""
 
@@ -111,11 +108,6 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
         DataError: if it cannot be read, is damaged, or belongs to another training.
     """
     arrays, about = read_arrays(path)
-    if about.get("kind") in EARLIER:
-        raise DataError(
-            f"Checkpoint '{path}' was written by an earlier version of acausal: finish the training with that version, "
-            "or start again with another file."
-        )
     if about.get("kind") != KIND:
         raise DataError(
             f"'{path}' is not a {KIND}, but: {about.get('kind', 'it does not say what')}."

@@ -250,12 +250,6 @@ class TrainingLog:
             DataError: if they are not the columns of such a log.
         """
         chunk = {n: column for n, column in columns.items() if n != EVALUATIONS}
-        if (
-            "diverged" in chunk
-        ):  # logs of earlier versions tell neither exploded gradients nor trials
-            chunk.setdefault("exploded", np.zeros_like(chunk["diverged"]))
-            chunk.setdefault("turned_down", np.zeros(len(chunk["diverged"]), bool))
-            chunk.setdefault("part", np.zeros(len(chunk["diverged"]), int))
         if EVALUATIONS not in columns or chunk.keys() != self._chunks[0].keys():
             raise DataError(f"The log of the training has other columns: {listing(columns)}.")
         self._append(chunk)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import jax
 import jax.numpy as jnp
@@ -19,7 +19,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import levenberg_marquardt
 from acausal.errors import TrainingError, nearest, shown
-from acausal.reporting import plot_profile
+from acausal.reporting import LEARNED, TRUTH, one_axes
 from acausal.training.member import stacked
 from acausal.training.objective.modifiers import Bounded, Shift
 from acausal.training.objective.problem import Problem
@@ -47,6 +47,13 @@ LEVEL = 0.95
 
 BETTER = 0.5
 """A profile has found another minimum if its log likelihood is higher than the fit's by more than this."""
+
+
+NARROW = (6.0, 3.2)
+"""Size of a figure, in inches."""
+
+SHOWN = 4.0
+"""Ratios are drawn up to so many times the bound."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +141,17 @@ class Profile:
         Returns:
             The figure.
         """
-        return plot_profile(self, axes)
+        ax = one_axes(axes, NARROW, "axes")
+        ax.plot(self.values, self.ratio, "o-", color=LEARNED[0], lw=1.2, ms=3)
+        ax.axhline(self.bound, color=TRUTH, lw=0.9, ls=":")
+        ax.axvline(self.value, color=TRUTH, lw=0.9, ls="--")
+        finite = self.ratio[np.isfinite(self.ratio)]
+        top = min(float(finite.max()), SHOWN * self.bound)
+        ax.set_ylim(-0.05 * self.bound, 1.1 * max(top, self.bound))
+        unit = "" if self.unit in ("", "1") else f" in {self.unit}"
+        ax.set(xlabel=f"{self.name}{unit}", ylabel="likelihood ratio")
+        ax.grid(alpha=0.25)
+        return cast("Figure", ax.figure)
 
     def _written(self, value: float) -> str:
         return f"{value:.4g} {self.unit}".removesuffix(" 1").rstrip()

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import cycle
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 import acausal as ac
-from acausal.reporting import LEARNED, TRUTH, plot_learned, plot_losses, plot_modifiers
+from acausal.reporting import GUIDE, LEARNED, TRUTH, plot_learned
 from examples.qvm.judge import DAMPER, SPRING, true_forces
 from examples.qvm.model import UNCERTAIN, linear
 from examples.qvm.record import INPUT, Ride
@@ -51,10 +52,28 @@ def forces(fits: Mapping[str, ac.Fit]) -> Figure:
 
 
 def losses(fits: Mapping[str, ac.Fit], levels: Mapping[str, float]) -> Figure:
-    """Losses over epochs (figure 3b)."""
+    """Losses over epochs (figure 3b): of the batches (thin), over the record (dots), of held-out samples (squares)."""
+    histories = {label: fit.history for label, fit in fits.items()}
     figure = Figure(figsize=(8, 4.2))
     ax = figure.subplots()
-    plot_losses(ax, {label: fit.history for label, fit in fits.items()}, levels=levels)
+    if not any(np.any(h.loss <= 0) or np.any(h.full_loss[:, 1] <= 0) for h in histories.values()):
+        ax.set_yscale("log")  # a logarithm of a likelihood may be negative
+    for (label, history), color in zip(histories.items(), cycle(LEARNED), strict=False):
+        ax.plot(np.arange(history.epochs), history.loss, color=color, lw=0.6, alpha=0.45)
+        ax.plot(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
+        if len(history.validation_loss):
+            kept = f"{label}, held out"
+            ax.plot(*history.validation_loss.T, "s--", color=color, lw=1.2, ms=3, label=kept)
+    for label, level in levels.items():
+        ax.axhline(level, color=GUIDE, lw=1, ls=":")
+        place = (1.0, level)
+        ax.annotate(
+            label, place, xycoords=("axes fraction", "data"), xytext=(4, 0), textcoords="offset points",
+            va="center", fontsize=8, color=GUIDE, annotation_clip=False,
+        )  # fmt: skip
+    ax.set(xlabel="epoch", ylabel="loss")
+    ax.grid(alpha=0.25, which="both")
+    ax.legend(frameon=False)
     figure.tight_layout()
     return figure
 
@@ -102,7 +121,12 @@ def modifiers(fit: ac.Fit) -> Figure:
     """Modifiers of the parameters over epochs (figure 5)."""
     figure = Figure(figsize=(8, 4.2))
     ax = figure.subplots()
-    plot_modifiers(ax, fit, targets=UNCERTAIN)
+    for (name, values), color in zip(fit.history.modifiers.items(), cycle(LEARNED), strict=False):
+        ax.plot(values, color=color, lw=1.4, label=name)
+        ax.axhline(UNCERTAIN[name], color=color, lw=0.9, ls="--")
+    ax.set(xlabel="epoch", ylabel="change")
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False)
     figure.tight_layout()
     return figure
 

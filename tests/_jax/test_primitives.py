@@ -43,7 +43,7 @@ def test_what_a_loop_shares_carries_and_reads_is_told_apart() -> None:
 
     equations = jax.make_jaxpr(loop)(X, X[0]).jaxpr.eqns
     (scan,) = (e for e in equations if primitives.name_of(e) == primitives.SCAN)
-    found = primitives.scan_of(scan)
+    found = primitives.scan_of(scan.params)
     assert (found.n_constants, found.n_carry, len(scan.invars)) == (1, 2, 5)
 
 
@@ -106,7 +106,7 @@ def misread(equation):
     return primitives.Scan(None, 1, 1, {})  # pyright: ignore[reportArgumentType]
 
 
-def renamed(equation):
+def renamed(*_: object):
     raise KeyError("jaxpr")
 
 
@@ -114,7 +114,7 @@ CHANGES = {
     "scan without its numbers of arguments": ("scan_of", without_numbers),
     "scan misread": ("scan_of", misread),
     "calls renamed": ("called", renamed),
-    "parameters renamed": ("parameters", renamed),
+    "parameters renamed": ("_read", renamed),
     "equations of another kind": ("name_of", lambda equation: equation.primitive.title),
 }
 

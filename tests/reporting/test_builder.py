@@ -8,13 +8,11 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
-import numpy as np
 import pytest
 import sympy as sp
 
 import acausal as ac
-from acausal.reporting import Page, plot, write_json
-from acausal.training.history import History
+from acausal.reporting import Page, write_json
 
 
 def test_a_page_holds_all_it_was_given(tmp_path: Path) -> None:
@@ -59,16 +57,6 @@ def test_a_page_that_cannot_be_written_is_told_in_a_sentence(tmp_path: Path) -> 
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(ac.DataError, match=r"^'.*index\.html' cannot be written: "):
         Page("Title").write(tmp_path / "file" / "index.html")
-
-
-def test_the_losses_of_many_are_all_drawn() -> None:
-    """There are fewer colours than curves."""
-    rows, none = np.array([[0.0, 1.0], [2.0, 0.5]]), np.zeros((0, 2))
-    history = History(np.ones(2), {}, {}, np.ones(2), rows, none, ())
-    axes = plt.figure().subplots()
-    plot.plot_losses(axes, {f"member {k}": history for k in range(len(plot.LEARNED) + 2)})
-    assert len(axes.lines) == 2 * (len(plot.LEARNED) + 2)
-    plt.close("all")
 
 
 def test_equations_of_arrays_of_parts_have_short_names(tmp_path: Path) -> None:

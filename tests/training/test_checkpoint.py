@@ -242,18 +242,6 @@ def test_files_of_other_kinds_are_refused(tmp_path: Path):
         train(checkpoint=path, resume=True)
 
 
-def test_a_checkpoint_of_an_earlier_version_is_refused(tmp_path: Path):
-    path = tmp_path / NAME
-    about = {"kind": "checkpoint of a training, version 2", "fingerprint": {}}
-    tensors.write_arrays(path, {"weights": np.zeros(3)}, about)
-    with pytest.raises(ac.DataError) as error:
-        train(checkpoint=path, resume=True)
-    assert str(error.value) == (
-        f"Checkpoint '{path}' was written by an earlier version of acausal: finish the training with that version, "
-        "or start again with another file."
-    )
-
-
 def failing(error: OSError) -> Any:
     def fail(*arguments: Any, **named: Any) -> None:
         raise error

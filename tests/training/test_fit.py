@@ -171,7 +171,7 @@ def test_modifiers_stay_within_gamma():
         0.2,
         plain().parameters(),
         plain().layout.why_not_free,
-        plain().layout.declared_range,
+        plain().layout.range_of,
     )
     for delta in (-50.0, 50.0):
         assert abs(chosen.changes({"mass.m": jnp.asarray(delta)})["mass.m"]) <= 0.3
@@ -516,9 +516,7 @@ def test_a_parameter_at_zero_cannot_be_modified():
     with pytest.raises(
         ac.TrainingError, match=r"Parameter 'spring\.d' is 0, and a modifier multiplies"
     ):
-        modifiers(
-            ["spring.d"], 0.2, params, plain().layout.why_not_free, plain().layout.declared_range
-        )
+        modifiers(["spring.d"], 0.2, params, plain().layout.why_not_free, plain().layout.range_of)
 
 
 @pytest.mark.slow

@@ -85,7 +85,7 @@ def _while(low: Lowering, operation: TracedOperation, args: list[CArray]) -> lis
 
 
 def _scan(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
-    scan = scan_of(_AsEquation(operation))  # type: ignore[arg-type]
+    scan = scan_of(operation.params)
     n, n_carry = scan.n_constants, scan.n_carry
     length = int(scan.options["length"])
     consts, starts, rows = args[:n], args[n : n + n_carry], args[n + n_carry :]
@@ -115,19 +115,6 @@ def _scan(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list
     low.depth -= 1
     rows_found = [stored(b, o.shape) for b, o in zip(collected, outputs, strict=True)]
     return [*carried, *rows_found]
-
-
-class _AsEquation:
-    """An operation as `acausal._jax.primitives` reads it."""
-
-    def __init__(self, operation: TracedOperation) -> None:
-        self.params = operation.params
-        self.primitive = _Named(operation.name)
-
-
-class _Named:
-    def __init__(self, name: str) -> None:
-        self.name = name
 
 
 def _cond(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:

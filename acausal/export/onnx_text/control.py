@@ -41,7 +41,7 @@ def _while(site: Site) -> list[str]:
 
 def _scan(site: Site) -> list[str]:
     """``Loop`` over the rows of arrays, which are gathered one by one."""
-    g, scan = site.graph, scan_of(site.equation)
+    g, scan = site.graph, scan_of(site.equation.params)
     n, end = scan.n_constants, scan.n_constants + scan.n_carry
     fixed, start, rows = site.values[:n], site.values[n:end], site.values[end:]
     length = int(site.params["length"])

@@ -7,7 +7,7 @@ K. E. Brenan, S. L. Campbell, L. R. Petzold: Numerical Solution of Initial-Value
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, NamedTuple, TypeVar
+from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
@@ -15,6 +15,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from acausal._jax import without_derivatives
 from acausal.simulation.newton import Equation, Fields, Newton, NewtonMatrix, Patience, Rates, solve
 from acausal.simulation.steps.multistep import (
     HARMONIC,
@@ -30,7 +31,6 @@ from acausal.simulation.steps.problem import Attempt, Counts, Integration, Right
 
 State = Float[Array, " n_states"]
 
-Tree = TypeVar("Tree")
 
 RENEW = 0.3
 """Relative change of the coefficient c beyond which the matrix of Newton's method is renewed."""
@@ -108,10 +108,6 @@ class Multistep(eqx.Module):
     name: ClassVar[str] = "BDF"
     matrix: NewtonMatrix
 
-    def with_tangents(self) -> Multistep:
-        """The method that can be differentiated in forward mode."""
-        return self
-
     def begin(self, problem: Integration, t: Array, x: State) -> tuple[MultistepMemory, Counts]:
         """What is known at the begin, or after a jump: one state."""
         f, h = first_step(problem, t, x, 1.0)
@@ -151,7 +147,7 @@ class Multistep(eqx.Module):
         known = own @ m.states
         c = h / alpha
         equation = Equation(Fields(_at, problem.field), end, c, known, m.states[0])
-        problem, m = _fixed((problem, m))
+        problem, m = without_derivatives((problem, m))
         predicted, x_before = predicting @ m.states, m.states[0]
         constant = error_constant(s, q)
         renew = m.stale | (m.age >= KEEP) | (jnp.abs(c / m.c - 1) > RENEW)
@@ -167,9 +163,11 @@ class Multistep(eqx.Module):
         x, exact = lax.stop_gradient(newton.x), newton.x
         error = constant * problem.size(x - predicted, x_before, x)
         error = jnp.where(newton.done, error, jnp.inf)
-        inside = _fixed(StepPolynomial(jnp.concatenate([x[None], m.states]), _with_end(s), q))
+        inside = without_derivatives(
+            StepPolynomial(jnp.concatenate([x[None], m.states]), _with_end(s), q)
+        )
 
-        fixed, begin, length, found = _fixed((matrix, t, h, x))
+        fixed, begin, length, found = without_derivatives((matrix, t, h, x))
 
         def size(share: Any) -> Array:  # solved with the matrix, as fast modes would count else
             _, r = defect(self, problem, inside, begin, length, share)
@@ -180,7 +178,7 @@ class Multistep(eqx.Module):
         error, accepted = look.error, look.error < 1
         dense = StepPolynomial(jnp.concatenate([exact[None], memory.states]), _with_end(s), q)
         solved = m._replace(matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted))
-        after = self._after(problem, solved, h, end, _fixed(dense), error)
+        after = self._after(problem, solved, h, end, without_derivatives(dense), error)
         after = after._replace(states=dense.states[:-1])
         before = self._before(solved, newton, renew, h, error)._replace(states=memory.states)
         made = newton.made
@@ -309,12 +307,6 @@ class Multistep(eqx.Module):
 def _with_end(s: Float[Array, " points"]) -> Float[Array, " points_1"]:
     """How far back some points lie from the end of a step, that end first."""
     return jnp.concatenate([jnp.zeros((1,), s.dtype), s])
-
-
-def _fixed(tree: Tree) -> Tree:
-    """The same, without derivatives; what is not an array, as an input's function, stays as it is."""
-    arrays, rest = eqx.partition(tree, eqx.is_array)
-    return eqx.combine(lax.stop_gradient(arrays), rest)
 
 
 def _at(t: Any, field: RightHandSide) -> Rates:

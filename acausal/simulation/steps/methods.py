@@ -57,7 +57,7 @@ def method_of(solver: solvers.Solver, problem: Integration, jacobian: StateJacob
 def paced(scheme: solvers.Scheme, jacobian: StateJacobian, dtype: DTypeLike) -> Paced:
     """Steps of given length by a scheme."""
     tableau = tableau_of(scheme).without_estimate()
-    return Paced(_one_step(scheme, tableau, jacobian, fixed_tolerances(dtype), FIXED))
+    return Paced(scheme, _one_step(scheme, tableau, jacobian, fixed_tolerances(dtype), FIXED))
 
 
 def _one_step(

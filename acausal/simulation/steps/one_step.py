@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from typing import Any, ClassVar, NamedTuple, Self, cast
+from typing import Any, ClassVar, NamedTuple, cast
 
 import diffrax as dfx
 import equinox as eqx
@@ -139,10 +139,6 @@ class OneStep(eqx.Module):
         """For messages."""
         return type(self.solver).__name__
 
-    def with_tangents(self) -> Self:
-        """The method that can be differentiated in forward mode."""
-        return self
-
     @abstractmethod
     def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> Any:
         """What the first step, or one after a jump, may use."""
@@ -245,19 +241,23 @@ class OneStep(eqx.Module):
             return made.x, made.dense
 
         (_, dense), pull = jax.vjp(step, own, begin)
+        by_own, by_x = pull((adjoint, self._to_dense(ts, row, dense, to_saved, which)))
+        return by_x, by_own
+
+    def _to_dense(
+        self, ts: Array, row: Any, dense: Any, to_saved: Array, which: tuple[Array, Array]
+    ) -> Any:
+        """The cotangents of what the interpolation takes; arguments as of `back`."""
 
         def add(state: tuple[Array, Any]) -> tuple[Array, Any]:
             j, total = state
-            pulled = jax.vjp(lambda d: self.between(d, t, h, ts[j]), dense)[1](to_saved[j])[0]
-            return j + 1, jax.tree.map(jnp.add, total, pulled)
+            pull = jax.vjp(lambda d: self.between(d, row.t, row.h, ts[j]), dense)[1]
+            return j + 1, jax.tree.map(jnp.add, total, pull(to_saved[j])[0])
 
         nothing = jax.tree.map(jnp.zeros_like, dense)
-        to_dense = nothing
-        if len(ts):
-            inside = lambda state: state[0] < which[1]  # noqa: E731
-            _, to_dense = lax.while_loop(inside, add, (which[0], nothing))
-        by_own, by_x = pull((adjoint, to_dense))
-        return by_x, by_own
+        if not len(ts):
+            return nothing
+        return lax.while_loop(lambda s: s[0] < which[1], add, (which[0], nothing))[1]
 
     @property
     def _order(self) -> float:
@@ -267,14 +267,6 @@ class OneStep(eqx.Module):
 
 class Foreign(OneStep):
     """Any other adaptive diffrax solver, by its own `step`."""
-
-    def with_tangents(self) -> Self:
-        """The method that can be differentiated in forward mode."""
-        if not isinstance(self.solver, dfx.AbstractRungeKutta):
-            return self
-        # its loop over the stages takes derivatives in reverse mode only by default
-        kind: Any = "bounded"
-        return eqx.tree_at(lambda m: m.solver.scan_kind, self, kind, is_leaf=lambda a: a is None)
 
     def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> Any:
         """The solver's state."""

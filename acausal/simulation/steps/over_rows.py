@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
@@ -21,7 +21,7 @@ from acausal.simulation.log import Log
 from acausal.simulation.solvers import Scheme, Solver
 from acausal.simulation.steps.loop import REACHED
 from acausal.simulation.steps.methods import paced
-from acausal.simulation.steps.problem import Integration
+from acausal.simulation.steps.problem import Integration, RightHandSide
 from acausal.simulation.steps.solve import solve
 
 if TYPE_CHECKING:
@@ -51,13 +51,13 @@ class Adaptive:
     atol: float = 1e-8
 
 
-class Clock(eqx.Module):
+class Clock(RightHandSide):
     """The right-hand side by a clock that goes on from row to row, through all runs.
 
     Attributes:
         packed: parameters. steps: the rows. edges: the clock at their starts, and at the end.
         own: numbers that differ from row to row; places: where they lie in `Packed.values`.
-        d: discrete variables, or None. until: see `RightHandSide`.
+        system, d, until: see `RightHandSide`.
     """
 
     packed: Packed
@@ -65,9 +65,6 @@ class Clock(eqx.Module):
     edges: Float[Array, " n_1"]
     own: Float[Array, "n n_own"] | None
     places: tuple[int, ...] = eqx.field(static=True)
-    system: Any = eqx.field(static=True)
-    d: Float[Array, " n_discrete"] | None = None
-    until: Float[Array, ""] | None = None
 
     @staticmethod
     def of(system: System, packed: Packed, steps: Steps, runs: Runs | None) -> Clock:
@@ -75,26 +72,16 @@ class Clock(eqx.Module):
         lengths = jnp.broadcast_to(steps.h, (len(steps.t),))
         edges = jnp.concatenate([jnp.zeros(1, lengths.dtype), jnp.cumsum(lengths)])
         own, places = (None, ()) if runs is None else (runs.own, runs.places)
-        return Clock(packed, steps, edges, own, places, system)
+        return Clock(packed, steps, edges, own, places, system=system)
 
-    def with_modes(self, d: Float[Array, " n_discrete"] | None) -> Clock:
+    def with_discrete(self, d: Float[Array, " n_discrete"] | None) -> Clock:
         """The same with discrete variables."""
-        return Clock(self.packed, self.steps, self.edges, self.own, self.places, self.system, d)
+        return replace(self, d=d)
 
     @property
     def has_edges(self) -> bool:
         """Whether times are known ahead at which it jumps or bends."""
-        return bool(self.system.edges) or self.steps.parts is not None
-
-    @property
-    def is_long(self) -> bool:
-        """Whether it takes long to compile."""
-        return self.system.program.is_long
-
-    @property
-    def bends(self) -> bool:
-        """Whether it jumps or bends somewhere that depends on states or inputs."""
-        return self.system.edges.bends
+        return super().has_edges or self.steps.parts is not None
 
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """The next of these times, by the clock; within a row, as another run may begin behind it."""
@@ -115,10 +102,6 @@ class Clock(eqx.Module):
     def _length(self, row: Array) -> Array:
         """Of a row."""
         return self.steps.h if self.steps.h.ndim == 0 else self.steps.h[row]
-
-    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
-        """The derivatives of the states."""
-        return self.at(t)(x)
 
     def at(self, t: Array) -> Field:
         """It at one time of the clock."""
@@ -168,7 +151,7 @@ def integrate_in_steps(
     """
     events, dtype = system.events, start.x.dtype
     d0 = None if events is None else system.modes(start).d
-    clock = Clock.of(system, start.packed, steps, runs).with_modes(d0)
+    clock = Clock.of(system, start.packed, steps, runs).with_discrete(d0)
     edges, n = clock.edges, len(steps.t)
     restarts = None if runs is None else runs.restarts
     jumps = jnp.zeros(n - 1, bool)
@@ -221,7 +204,7 @@ def integrate_in_steps(
         return Integrated(x, None, end, found.log)
 
     def read(at: Array, x: Array, d: Array | None) -> Array:
-        return system.read(tuple(outputs), clock.with_modes(d).at(at).values(x))
+        return system.read(tuple(outputs), clock.with_discrete(d).at(at).values(x))
 
     return Integrated(x, jax.vmap(read)(edges[:-1], x, d), end, found.log)
 

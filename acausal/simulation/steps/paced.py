@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
@@ -13,7 +12,7 @@ from acausal.simulation.steps.problem import Attempt, Counts, Integration, Right
 from acausal.simulation.steps.runge_kutta import Explicit
 
 
-class Paced(eqx.Module):
+class Paced(OneStep):
     """A one-step scheme whose steps count whatever their error is, and go from each known time to the next.
 
     Attributes:
@@ -21,15 +20,6 @@ class Paced(eqx.Module):
     """
 
     scheme: OneStep
-
-    @property
-    def name(self) -> str:
-        """For messages."""
-        return self.scheme.name
-
-    def with_tangents(self) -> Paced:
-        """The method that can be differentiated in forward mode."""
-        return Paced(self.scheme.with_tangents())
 
     def first(self, field: RightHandSide, t: Array, h: Array, x: Array, f: Array) -> Any:
         """What a step may use that begins here."""
@@ -58,10 +48,6 @@ class Paced(eqx.Module):
     chooses: ClassVar[bool] = False
     """Its steps are given."""
 
-    def resumed(self, memory: Memory, before: Memory) -> Memory:
-        """What is known behind a jump."""
-        return memory
-
     def attempt(self, problem: Integration, memory: Memory, t: Array, h: Array) -> Attempt:
         """Make a step of length h from t."""
         made = self.make(problem.field, t, h, memory.x, memory.first)
@@ -70,8 +56,6 @@ class Paced(eqx.Module):
         after = memory._replace(h=again.astype(h.dtype), x=made.x, first=made.first)
         never = jnp.array(False)
         return Attempt(done, made.x, after, made.dense, (), never, never, made.counts)
-
-    adjoint, at_start, back = OneStep.adjoint, OneStep.at_start, OneStep.back
 
     def _first(self, problem: Integration, t: Array, x: Array) -> Any:
         h = jnp.ones_like(t)

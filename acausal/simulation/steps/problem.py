@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Protocol
+from abc import abstractmethod
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -20,75 +21,57 @@ EDGE_STEPS = 8
 """An edge of the right-hand side allows so many more steps; all in all, there may be so many times ``max_steps``."""
 
 
-class RightHandSide(Protocol):
-    """The right-hand side of a model whose parameters and inputs are given.
+class RightHandSide(eqx.Module):
+    """The right-hand side of a model whose parameters and inputs are given: (time, state) -> derivative.
 
     Attributes:
+        system: the model.
         d: discrete variables, or None. until: inputs do not jump before this time, nor there; None: they may.
     """
 
-    d: Float[Array, " n_discrete"] | None
-    until: Float[Array, ""] | None
+    system: Any = eqx.field(static=True, kw_only=True)
+    d: Float[Array, " n_discrete"] | None = eqx.field(default=None, kw_only=True)
+    until: Float[Array, ""] | None = eqx.field(default=None, kw_only=True)
 
     @property
     def has_edges(self) -> bool:
         """Whether times are known ahead at which it jumps or bends, or how long a step may be."""
-        ...
+        return bool(self.system.edges)
 
     @property
     def bends(self) -> bool:
         """Whether it jumps or bends somewhere that depends on states or inputs."""
-        ...
+        return self.system.edges.bends
 
     @property
     def is_long(self) -> bool:
         """Whether it takes long to compile: then there is one copy of it in a step, in a loop over the stages."""
-        ...
+        return self.system.program.is_long
 
+    @abstractmethod
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """What is known of the time to come, as of `Edges.ahead`."""
-        ...
 
+    @abstractmethod
     def at(self, t: Array) -> Field:
         """It at one time, as a function of the states."""
-        ...
 
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
-        ...
+        return self.at(t)(x)
 
 
-class Sided(eqx.Module):
+class Sided(RightHandSide):
     """A right-hand side between two edges: it sees no time beyond them, whatever rounding and stages say."""
 
-    field: Any
+    field: RightHandSide
     low: Float[Array, ""]
     high: Float[Array, ""]
-
-    @property
-    def d(self) -> Float[Array, " n_discrete"] | None:
-        """Discrete variables."""
-        return self.field.d
-
-    @property
-    def until(self) -> Float[Array, ""] | None:
-        """Inputs do not jump before."""
-        return self.field.until
 
     @property
     def has_edges(self) -> bool:
         """It has none but its ends."""
         return False
-
-    @property
-    def bends(self) -> bool:
-        """As the whole."""
-        return self.field.bends
-
-    @property
-    def is_long(self) -> bool:
-        """As the whole."""
-        return self.field.is_long
 
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """As the whole."""
@@ -98,10 +81,6 @@ class Sided(eqx.Module):
         """It at one time; that is moved by rounding errors only, so its derivative stays."""
         inside = jnp.clip(t, self.low, self.high).astype(jnp.result_type(t))
         return self.field.at(t + lax.stop_gradient(inside - t))
-
-    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
-        """The derivatives of the states."""
-        return self.at(t)(x)
 
 
 class Integration(eqx.Module):
@@ -177,7 +156,9 @@ class Integration(eqx.Module):
     def sided(self, t: Float[Array, ""], edge: Float[Array, ""]) -> Integration:
         """The problem between a time and the next edge behind it."""
         low, high = lax.stop_gradient((t + self.apart(t), edge - self.apart(t)))
-        return eqx.tree_at(lambda p: p.field, self, Sided(self.field, low, high))
+        f = self.field
+        sided = Sided(f, low, high, system=f.system, d=f.d, until=f.until)
+        return eqx.tree_at(lambda p: p.field, self, sided)
 
     @property
     def tolerances(self) -> Tolerances:

@@ -123,11 +123,7 @@ def reach(
         return chosen(guards(events, field.at(t).values(x)), row.which)
 
     def where_it_changes() -> Array:
-        g, slope = jax.jvp(condition, (t + fixed, end), (jnp.ones_like(fixed), by_h[0]))
-        slope = lax.stop_gradient(slope)
-        none = grazes(row, g, slope)
-        moved = (g - lax.stop_gradient(g)) / jnp.where(none, 1.0, slope)
-        return jnp.where(none, fixed, fixed - moved)
+        return fixed + moved_by(row, condition, (t + fixed, end), (jnp.ones_like(fixed), by_h[0]))
 
     def to_its_time() -> Array:
         return chosen(due(events, field.at(t).values(x)).t, row.which) - t
@@ -141,6 +137,23 @@ def reach(
         lambda v, rate: v + lax.stop_gradient(rate) * moved, (end, dense), by_h
     )
     return Reach(jnp.where(row.kind <= JUMP, stop, t + h), end, h, dense)
+
+
+def moved_by(
+    row: Row,
+    number: Callable[[Array, Array], Array],
+    at: tuple[Array, Array],
+    along: tuple[Array, Array],
+) -> Array:
+    """By what the instant of a condition moves with its number: zero, with derivatives.
+
+    Arguments:
+        number: of the condition, by time and states. at: these. along: how they grow with time.
+    """
+    g, slope = jax.jvp(number, at, along)
+    slope = lax.stop_gradient(slope)
+    none = grazes(row, g, slope)
+    return jnp.where(none, 0.0, (lax.stop_gradient(g) - g) / jnp.where(none, 1.0, slope))
 
 
 def grazes(row: Row, number: Array, slope: Array) -> Array:

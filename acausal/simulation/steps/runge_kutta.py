@@ -94,7 +94,11 @@ class Explicit(OneStep):
             return super().back(of_moved, own, row, begin, adjoint, to_saved, which)
         a, b, c = self._tableau(row.h.dtype)
         t, h, n = row.t, row.h, len(c)
-        dense = self._to_dense(of_moved(own)[1].ts, row, n, to_saved, which)
+        linear = jnp.zeros(
+            (n + 2, *begin.shape), begin.dtype
+        )  # the interpolation is: any values will do
+        linear = {"y0": linear[0], "y1": linear[1], "k": linear[2:]}
+        dense = self._to_dense(of_moved(own)[1].ts, row, linear, to_saved, which)
         to_end = adjoint + dense["y1"]
 
         def rates(i: Array, own: list[Array], x: State) -> State:
@@ -114,26 +118,6 @@ class Explicit(OneStep):
         state = n - 1 - unseen, nothing, [jnp.zeros_like(v) for v in own]
         _, handed, totals = lax.while_loop(lambda s: s[0] >= 0, reverse, state)
         return to_end + dense["y0"] + jnp.sum(handed, axis=0), totals
-
-    def _to_dense(
-        self, ts: Array, row: Any, n: int, to_saved: Array, which: tuple[Array, Array]
-    ) -> dict[str, Array]:
-        """The cotangents of what the interpolation takes, which is linear in it."""
-        x = row.x
-        nothing = {
-            "y0": jnp.zeros_like(x),
-            "y1": jnp.zeros_like(x),
-            "k": jnp.zeros((n, *x.shape), x.dtype),
-        }
-
-        def add(state: tuple[Array, Any]) -> tuple[Array, Any]:
-            j, total = state
-            pull = jax.vjp(lambda d: self.between(d, row.t, row.h, ts[j]), nothing)[1]
-            return j + 1, jax.tree.map(jnp.add, total, pull(to_saved[j])[0])
-
-        if not len(ts):
-            return nothing
-        return lax.while_loop(lambda s: s[0] < which[1], add, (which[0], nothing))[1]
 
     def _tableau(self, dtype: Any) -> tuple[Array, Array, Array]:
         """The matrix, the weights and the nodes, of all stages, the first included."""

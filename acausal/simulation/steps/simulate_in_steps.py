@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import diffrax as dfx
-import equinox as eqx
 import numpy as np
 from jaxtyping import Array, Float
 
@@ -21,41 +20,22 @@ from acausal.simulation.solution import Solution
 from acausal.simulation.statistics import Statistics
 from acausal.simulation.steps.loop import CHATTERS, EXHAUSTED, NOT_CONVERGED, REACHED, LoopResult
 from acausal.simulation.steps.methods import paced
-from acausal.simulation.steps.problem import Integration
+from acausal.simulation.steps.problem import Integration, RightHandSide
 from acausal.simulation.steps.solve import Solved, solve
 from acausal.simulation.steps.tolerances import Tolerance
 
 
-class ModelField(eqx.Module):
-    """The right-hand side of a model whose parameters and inputs are given: (time, state) -> derivative.
+class ModelField(RightHandSide):
+    """The right-hand side for inputs that are functions of time.
 
     Attributes:
         packed: parameters.
         inputs: functions of time.
-        system: the model.
-        d: discrete variables, or None. until: see `RightHandSide`.
+        system, d, until: see `RightHandSide`.
     """
 
     packed: Packed
     inputs: tuple[TimeFunction, ...]
-    system: Any = eqx.field(static=True)
-    d: Float[Array, " n_discrete"] | None = None
-    until: Float[Array, ""] | None = None
-
-    @property
-    def has_edges(self) -> bool:
-        """Whether times are known ahead at which it jumps or bends."""
-        return bool(self.system.edges)
-
-    @property
-    def bends(self) -> bool:
-        """Whether it jumps or bends somewhere that depends on states or inputs."""
-        return self.system.edges.bends
-
-    @property
-    def is_long(self) -> bool:
-        """Whether it takes long to compile."""
-        return self.system.program.is_long
 
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """The next of these times."""
@@ -64,10 +44,6 @@ class ModelField(eqx.Module):
     def at(self, t: Array) -> Field:
         """It at one time."""
         return self.system.field(t, evaluate(self.inputs, t, self.until), self.packed, self.d)
-
-    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
-        """The derivatives of the states."""
-        return self.at(t)(x)
 
 
 def simulate_in_steps(
@@ -111,7 +87,7 @@ def simulate_in_steps(
         scheme = solvers.for_fixed_steps(chosen)
         method = paced(scheme, run.system.state_jacobian, dtype)
     problem = Integration(
-        ModelField(run.start.packed, run.inputs, run.system, run.start.d),
+        ModelField(run.start.packed, run.inputs, system=run.system, d=run.start.d),
         run.start.x,
         array(run.begin),
         array(run.end),

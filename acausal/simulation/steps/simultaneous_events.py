@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from acausal.events import After, Rates, due, fire, guards
 from acausal.simulation.steps.problem import Integration
-from acausal.simulation.steps.rows import Reach, Row, chosen, grazes, rates_at, values_at
+from acausal.simulation.steps.rows import Reach, Row, chosen, moved_by, rates_at, values_at
 
 MOST = 8
 """So many conditions of one instant, at most, are taken in turn."""
@@ -50,8 +50,7 @@ def count(row: Row) -> Int[Array, ""]:
 
 def turn(row: Row, d: Float[Array, " n_discrete"], i: Int[Array, ""], together: Any) -> Turn:
     """One turn of an event, or all its conditions together."""
-    among, places = row.band >= 0, jnp.arange(len(row.band))
-    place = jnp.where(places == row.which, 0, jnp.cumsum(among & (places != row.which)))
+    among, place = _order(row)
     own = d[: len(row.band)]
     now = among & (together | (place == i))
     return Turn(jnp.where(now, 1 - own, own), among & ~together & (place > i))
@@ -59,9 +58,14 @@ def turn(row: Row, d: Float[Array, " n_discrete"], i: Int[Array, ""], together: 
 
 def guard_of(row: Row, i: Int[Array, ""]) -> Int[Array, ""]:
     """Whose turn it is."""
-    among, places = row.band >= 0, jnp.arange(len(row.band))
-    place = jnp.where(places == row.which, 0, jnp.cumsum(among & (places != row.which)))
+    among, place = _order(row)
     return jnp.argmax(among & (place == i))
+
+
+def _order(row: Row) -> tuple[Bool[Array, " n_guards"], Int[Array, " n_guards"]]:
+    """Which conditions change, and whose turn comes when: first that of the one that was found."""
+    among, places = row.band >= 0, jnp.arange(len(row.band))
+    return among, jnp.where(places == row.which, 0, jnp.cumsum(among & (places != row.which)))
 
 
 def still_wait(
@@ -83,13 +87,7 @@ def until(
     def number(t: Array, x: Array) -> Array:
         return chosen(guards(events, field.at(t).values(x)), guard)
 
-    def where_it_changes() -> Array:
-        g, slope = jax.jvp(number, (t, x), (fixed[1], fixed[0]))
-        slope = lax.stop_gradient(slope)
-        none = grazes(row, g, slope)
-        return jnp.where(none, 0.0, (lax.stop_gradient(g) - g) / jnp.where(none, 1.0, slope))
-
-    h = where_it_changes()
+    h = moved_by(row, number, (t, x), (fixed[1], fixed[0]))
     if events.timed.any():
         its_time = chosen(due(events, field.at(t).values(x)).t, guard)
         h = jnp.where(jnp.asarray(events.timed)[guard], its_time - t, h)

@@ -18,7 +18,6 @@ from acausal.simulation.solvers import Solver
 from acausal.simulation.steps.loop import EXHAUSTED, STIFF, LoopResult, LoopStart, search
 from acausal.simulation.steps.methods import Method, explicit, method_of, stiff
 from acausal.simulation.steps.one_step import OneStep
-from acausal.simulation.steps.paced import Paced
 from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.replay import reverse
 
@@ -33,7 +32,7 @@ class Solved(NamedTuple):
 
 def solve(
     problem: Integration,
-    solver: Solver | Paced | None,
+    solver: Solver | OneStep | None,
     jacobian: StateJacobian,
     *,
     d: Float[Array, " n_discrete"] | None = None,
@@ -56,8 +55,8 @@ def solve(
     start = LoopStart(problem.begin, problem.x, array(0, int), d, log)
     if solver is None:
         return _automatic(problem, start, jacobian, forward)
-    method = solver if isinstance(solver, Paced) else method_of(solver, problem, jacobian)
-    if problem.events is not None and not isinstance(method, OneStep | Paced):
+    method = solver if isinstance(solver, OneStep) else method_of(solver, problem, jacobian)
+    if problem.events is not None and not isinstance(method, OneStep):
         raise SimulationError(
             f"solver {method.name} goes on from steps before an event, which ends them all; choose 'auto', or "
             "'kvaerno5' for stiff models with events"
@@ -91,15 +90,17 @@ def _automatic(
 
 @compiled
 def _run(
-    method: Method | Paced, problem: Integration, start: LoopStart, until_stiff: bool, forward: bool
+    method: Method | OneStep,
+    problem: Integration,
+    start: LoopStart,
+    until_stiff: bool,
+    forward: bool,
 ) -> LoopResult:
-    if problem.events is not None:
-        method = method.with_tangents()  # where a step ends follows from its derivative by length
     arrays, rest = eqx.partition((method, problem, start), eqx.is_array)
 
     def forwards(arrays: PyTree) -> LoopResult:
         method, problem, start = eqx.combine(arrays, rest)
-        return search(method.with_tangents(), problem, start, until_stiff=until_stiff, forward=True)
+        return search(method, problem, start, until_stiff=until_stiff, forward=True)
 
     def backwards(arrays: PyTree) -> LoopResult:
         return reverse(*eqx.combine(arrays, rest), until_stiff=until_stiff)

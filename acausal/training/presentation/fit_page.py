@@ -12,7 +12,6 @@ from acausal.reporting import (
     Curve,
     PageContent,
     Plot,
-    Profiled,
     Table,
     Text,
     table,
@@ -23,6 +22,7 @@ from acausal.training.history import History
 from acausal.training.presentation.fit_view import loss_rows, parameter_rows
 from acausal.training.presentation.page_laws import Sections, content_with_laws
 from acausal.training.presentation.page_records import record_blocks, runs_of
+from acausal.training.profile import Profile
 from acausal.training.trained_model import TrainedModel, out_of_range
 from acausal.training.uncertainty.confidence import Confidence
 from acausal.training.uncertainty.residuals import Residuals
@@ -37,7 +37,7 @@ DIVERGENCES_SHOWN = 50
 
 
 def fit_content(
-    fit: TrainedModel, verdict: Verdict | None, title: str, profiles: Sequence[Profiled] = ()
+    fit: TrainedModel, verdict: Verdict | None, title: str, profiles: Sequence[Profile] = ()
 ) -> PageContent:
     """All that the page of a training shows.
 
@@ -137,7 +137,7 @@ def _own(fit: TrainedModel, sure: Confidence | None) -> Table | None:
 # -- trust ---------------------------------------------------------------------------------------------------
 
 
-def _profile(profile: Profiled) -> Iterable[Block]:
+def _profile(profile: Profile) -> Iterable[Block]:
     """A likelihood ratio over a parameter, with the bound of its interval."""
     yield Text(profile.summary())
     level = np.full(2, profile.bound)
