@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, ClassVar
 
-import numpy as np
-
 from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
 from acausal.modelica.classes import ClassNode, Entry
@@ -14,6 +12,7 @@ from acausal.modelica.connectors import connector
 from acausal.modelica.form import note_form
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import make_part, modify_part
+from acausal.modelica.meanings import Native
 from acausal.modelica.modifications import (
     Bound,
     Given,
@@ -31,7 +30,7 @@ from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.types import Type, is_component, type_of_declared
 from acausal.modelica.values import ABSENT, Record, as_array, of
 from acausal.modelica.variables import declare
-from acausal.modeling import Component, Reference, charge, check_size
+from acausal.modeling import Component, Reference, charge
 
 MAX_DEPTH = 60
 
@@ -317,19 +316,25 @@ class Build:
         if found.predefined:
             declare(self, name, entry, found, mod, sizes)
         else:
-            value = self.parts(name, entry, found, mod, [self.size(s, f) for s, f in sizes])
+            known = [Interpreter(f).size(s) for s, f in sizes]
+            value = self.parts(name, entry, found, mod, known)
             self.assign(name, entry, value)
 
     def assign(self, name: str, entry: Entry, value: Any) -> None:
-        """Give the component an attribute; what belongs to a connector, or consists of several, is kept here."""
+        """Give the component an attribute.
+
+        What belongs to a connector, consists of several, or has a name that Python cannot use is kept here.
+        """
         try:
-            if "." in name:
-                add: Any = (
-                    self.component._add_all if isinstance(value, list) else self.component._add
-                )
-                self.made[name] = value if _is_composite(value) else as_array(add(name, value))
-            elif _is_composite(value):
+            own = hasattr(type(self.component), name) and name not in self.component._declared
+            if _is_composite(value):
                 self.made[name] = value
+            elif "." in name or name[0] == "'" or own:
+                many = isinstance(value, list)
+                add: Any = self.component._add_all if many else self.component._add
+                self.made[name] = as_array(add(name, value))
+                if own:  # reading a declaration has put it where a method was
+                    vars(self.component).pop(name, None)
             else:
                 self.component._claim(name)
                 setattr(self.component, name, value)
@@ -337,19 +342,6 @@ class Build:
             raise
         except ModelError as error:
             raise entry.wrong(str(error)) from None
-
-    def size(self, expression: Any, frame: Frame) -> int:
-        """The size of an array."""
-        interpreter = Interpreter(frame)
-        interpreter.at = expression.at
-        value = interpreter.value(expression)
-        if isinstance(value, np.ndarray):  # of a type: a value for each of its values
-            return len(value)
-        number = interpreter.whole(value, "a size")
-        if number < 0:
-            raise interpreter.wrong(f"a size is not negative; this is {number}")
-        check_size(number, "the array")
-        return number
 
     # -- parts -------------------------------------------------------------------------------------------
 
@@ -397,10 +389,11 @@ class Build:
         return part
 
     def _instead(self, entry: Entry, found: Type, inner: list[Given]) -> ClassNode | None:
-        """The text of a library's class, where that has a replaceable member which the class here lacks."""
-        if all(g.redeclared is None for g in inner):
-            return None
-        return entry.node.tree.text(found.full)
+        """The text of a library's class, where it is given a member which the class here lacks."""
+        tree = entry.node.tree
+        if any(g.redeclared is not None for g in inner):
+            return tree.text(found.full)
+        return tree.text_with(Native(found.native, found.full), [g.name for g in inner])
 
     # -- the record of the component -----------------------------------------------------------------------
 

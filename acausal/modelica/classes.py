@@ -154,9 +154,11 @@ class ClassNode:
 
     def _own(self, name: str) -> Any:
         if self.definition.kind == "package":
-            native = self.tree.native(f"{self.full}.{name}")
-            if native is not None:
-                return native
+            full = f"{self.full}.{name}"
+            found = self.tree.native(full) or self.text(name)
+            if found is None and self.tree.has_package(full):
+                return Prefix(full)  # another version of the library has its text
+            return found
         return self.text(name)
 
     def text(self, name: str) -> ClassNode | None:
@@ -263,7 +265,7 @@ class ClassNode:
                 if found is None:
                     owner, _, last = clause.names[word].rpartition(".")
                     package = self.tree.resolve(owner) if owner else None
-                    if isinstance(package, ClassNode) and last in package.view().entries:
+                    if isinstance(package, ClassNode) and package.has_value(last):
                         return Imported(package, last)
                     raise self.wrong(clause.at, f"there is no '{clause.names[word]}'; {PATH_HINT}")
                 return found
@@ -273,15 +275,15 @@ class ClassNode:
                 found = self.tree.inside(package, word)
                 if isinstance(found, Prefix) and not self.tree.has_package(found.full):
                     found = None
-                if (
-                    found is None
-                    and isinstance(package, ClassNode)
-                    and word in package.view().entries
-                ):
+                if found is None and isinstance(package, ClassNode) and package.has_value(word):
                     found = Imported(package, word)
                 if found is not None:
                     return found
         return None
+
+    def has_value(self, name: str) -> bool:
+        """Whether this is a constant of a package, or a value of an enumeration."""
+        return name in self.view().entries or name in (self.definition.literals or ())
 
     def unknown(self, name: DottedName, what: str = "class") -> ModelicaError:
         """The error for a name that means nothing here."""
@@ -357,7 +359,7 @@ class ClassNode:
                 view.predefined = base
                 view.attributes = [*arguments, *view.attributes]
                 return
-            case Native() if (text := self._with_all(base)) is not None:
+            case Native() if (text := self._with_all(base, arguments)) is not None:
                 base = text
             case Native():
                 view.natives.append((base, arguments))
@@ -399,12 +401,17 @@ class ClassNode:
                 raise self.wrong(argument.at, reason, len(argument.name))
         view.sections += inherited.sections
 
-    def _with_all(self, base: Native) -> ClassNode | None:
-        """The text of a library's interface that has members which the class here lacks, where there is one."""
-        text = self.tree.text(base.name) if ".Interfaces." in base.name else None
-        declared = getattr(base.cls, "_declared", {})
-        lacks = text is not None and any(n not in declared for n in text.view().entries)
-        return text if lacks else None
+    def _with_all(
+        self, base: Native, arguments: list[tuple[ModificationArgument, ClassNode]]
+    ) -> ClassNode | None:
+        """The text of a library's class that has members which the class here lacks, where there is one.
+
+        Of an interface all members count, of others those that are modified.
+        """
+        if ".Interfaces." not in base.name:
+            return self.tree.text_with(base, [a.name.partition(".")[0] for a, _ in arguments])
+        text = self.tree.text(base.name)
+        return self.tree.text_with(base, text.view().entries) if text else None
 
     @staticmethod
     def _for_native(

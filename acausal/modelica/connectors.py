@@ -12,7 +12,7 @@ from acausal.modelica.library_parts import modify_connector
 from acausal.modelica.modifications import Bound, Given, Modification, given_by, modification
 from acausal.modelica.operators import Frame
 from acausal.modelica.types import Type, attributes_of, type_of_declared
-from acausal.modelica.values import Record, as_array
+from acausal.modelica.values import Record, attribute_of, of
 from acausal.modelica.variables import declare
 from acausal.modeling import Connector, Flow, Potential, Variable
 
@@ -62,7 +62,8 @@ def _composite(build: Any, name: str, whole: Type, node: ClassNode, given: list[
                 raise entry.wrong(f"a {found.predefined} in a connector is an input or output")
             declare(build, path, entry, found, mod, sizes)
         else:
-            parts = build.parts(path, entry, found, mod, [build.size(*s) for s in sizes])
+            known = [Interpreter(f).size(s) for s, f in sizes]
+            parts = build.parts(path, entry, found, mod, known)
             build.assign(path, entry, parts)
         fields[word] = build.made[path]
     if plain:
@@ -70,7 +71,7 @@ def _composite(build: Any, name: str, whole: Type, node: ClassNode, given: list[
         cls = _class(node, plain, fields, whole.connection)
         build.later.append(lambda: modify_connector(build, name, own))
         fields[""] = build.component._node.declare(name, cls())
-        fields |= {n: as_array(getattr(fields[""], n)) for n in plain}
+        fields |= {n: of(fields[""], n) for n in plain}
     if not whole.connection:
         _check(node)
     is_value = node.definition.kind == "record" or node.view().causality
@@ -114,10 +115,16 @@ def _class(
 ) -> type[Connector]:
     """The class of the potentials and flows of a connector; ``known`` has values of its parameters."""
     bases = tuple(n.cls for n, _ in node.view().natives) or (Connector,)
-    declared = {name: _variable(entry, known, connection) for name, entry in entries.items()}
     if node.definition.expandable:
         raise node.refused("expandable connectors are not supported")
-    return type(node.definition.name, bases, {**declared, "__module__": __name__})
+    declared = {name: _variable(entry, known, connection) for name, entry in entries.items()}
+    own = {attribute_of(name): v for name, v in declared.items()}
+    cls: Any = type(node.definition.name, bases, {**own, "__module__": __name__})
+    for name, variable in declared.items():
+        variable.name = name
+    stated = cls.declarations.items()
+    cls.declarations = {v.name + "".join(n.partition("[")[1:]): v for n, v in stated}
+    return cls
 
 
 def _check(node: ClassNode) -> None:
@@ -162,7 +169,7 @@ def _variable(entry: Entry, known: dict[str, Any], connection: str = "") -> Vari
         *((s, frame) for s in declared.subscripts),
         *((s, Frame(n)) for s, n in found.subscripts),
     ]
-    shape = tuple(Interpreter(f).whole(Interpreter(f).value(s), "a size") for s, f in sizes)
+    shape = tuple(Interpreter(f).size(s) for s, f in sizes)
     stated = attributes_of(found, mod.inner)
     unit = stated.get("unit", "")
     kind = Flow if "flow" in (connection, prefixes.connection) else Potential

@@ -271,9 +271,7 @@ class Evaluator(Operators):
             case Predefined("Boolean"):
                 return array_of([False, True]), i
             case ClassNode() if rest:
-                if found.definition.literals is not None and rest[0] in found.definition.literals:
-                    return literal(found, rest[0]), i + 1
-                if rest[0] in found.view().entries:
+                if found.has_value(rest[0]):
                     return self.constant(found, rest[0]), i + 1
             case None:
                 node: Any = frame.node
@@ -318,7 +316,9 @@ class Evaluator(Operators):
         )
 
     def constant(self, node: ClassNode, name: str) -> Any:
-        """A constant of a package."""
+        """A constant of a package, or a value of an enumeration."""
+        if name in (node.definition.literals or ()):
+            return literal(node, name)
         known: dict[str, Any] = node.__dict__.setdefault("constants", {})
         if name not in known:
             entry = node.view().entries[name]

@@ -127,6 +127,18 @@ class Interpreter(Algorithms):
             fields[name] = None if expression is None else self.elsewhere(frame).value(expression)
         return Record(fields, node)
 
+    def size(self, expression: Expression) -> int:
+        """The size of an array: a number, or the number of values of a type."""
+        value = self.value(expression)
+        self.at = expression.at
+        if isinstance(value, np.ndarray):
+            return len(value)
+        number = self.whole(value, "a size")
+        if number < 0:
+            raise self.wrong(f"a size is not negative; this is {number}")
+        check_size(number, "the array")
+        return number
+
     # -- functions of the user ---------------------------------------------------------------------------
 
     def inlined(self, node: ClassNode, call: FunctionCall) -> list[Any]:
@@ -224,10 +236,9 @@ class Interpreter(Algorithms):
             given = {a.name: a.modifier.value for a in stated if a.name in found.view().entries}
             named = {k: self.value(v) for k, v in given.items() if v is not None}
             return self.record_of(found, [], named)
-        sizes = [self.value(s) for s in subscripts if not isinstance(s, Whole)]
-        if not sizes or len(sizes) < len(subscripts):
+        shape = [self.size(s) for s in subscripts if not isinstance(s, Whole)]
+        if not shape or len(shape) < len(subscripts):
             return None
-        shape = [self.whole(n, "a size") for n in sizes]
         check_size(int(np.prod(shape)), "the array")
         return np.empty(shape, dtype=object)
 

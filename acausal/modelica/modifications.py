@@ -146,7 +146,9 @@ def modification(declared: Declared, given: Sequence[Given], frame: Frame) -> Mo
                 raise one.wrong(f"'{name}' is a component; it is not redeclared by a class")
             if not declared.prefixes.replaceable:
                 raise one.wrong(f"'{name}' is not replaceable")
-            found.redeclared, modifier = found.redeclared or one, element.modifier
+            if found.redeclared is not None:
+                continue  # what replaces this has modifiers of its own
+            found.redeclared, modifier = one, element.modifier
         if one.final and outer is not None:
             raise outer.wrong(f"'{name}' is final")
         if declared.prefixes.protected and one.frame.build is not frame.build:

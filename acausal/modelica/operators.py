@@ -148,7 +148,9 @@ class Operators(Arithmetic):
                 f"arrays of sizes {list(a.shape)} and {list(b.shape)} cannot be multiplied"
             )
         check_size(a.size * (b.shape[1] if b.ndim > 1 else 1), "the product")
-        return self.result(np.dot(a, b)) if a.size else 0
+        if not a.shape[-1]:
+            return np.zeros((*a.shape[:-1], *b.shape[1:]), dtype=object)[()]
+        return self.result(np.dot(a, b))
 
     def overloaded(self, operator: str, *values: Any) -> Any:
         """An operator of which an operand is a record."""

@@ -13,6 +13,7 @@ from acausal.modelica.sections import SectionReader, collect
 from acausal.modelica.values import (
     as_array,
     elements,
+    of,
 )
 from acausal.modeling import (
     Component,
@@ -178,5 +179,8 @@ def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
 def _target(part: Component, path: str) -> Any:
     """The variable of a part that a modifier gives a value."""
     build = part.__dict__.get("_build")
-    member = build.made.get(path) if build is not None and "." in path else None
+    member = build.made.get(path) if build is not None else None
+    owner, _, name = path.rpartition(".")
+    if member is None and owner:
+        return of(attribute(part, owner), name)
     return as_array(attribute(part, path)) if member is None else member

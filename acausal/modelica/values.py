@@ -133,15 +133,20 @@ def of(value: Any, word: str) -> Any:
                 return build.member(word)  # of a part that is not complete yet
             return as_array(member(value, word))
         case Connector():
-            return as_array(getattr(value, word, None)) if _has(value, word) else None
+            return as_array(getattr(value, attribute_of(word))) if _has(value, word) else None
         case _ if is_dataclass(value) and not isinstance(value, type):
             return getattr(value, word, getattr(value, f"{word}_", None))
         case _:
             return None
 
 
+def attribute_of(word: str) -> str:
+    """The attribute of a connector for a variable: one whose name every connector has, such as ``rate``, is ``rate_``."""
+    return f"{word}_" if hasattr(Connector, word) else word
+
+
 def _has(connector: Connector, word: str) -> bool:
-    return isinstance(getattr(type(connector), word, None), Variable)
+    return isinstance(getattr(type(connector), attribute_of(word), None), Variable)
 
 
 def type_of(value: Any) -> str:

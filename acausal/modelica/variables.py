@@ -59,6 +59,9 @@ def declare(
     if found.predefined == "String":
         raise entry.wrong("a text that changes with time is not supported")
     shape = tuple(_sizes(build, entry, mod.value, sizes))
+    if 0 in shape:
+        build.made[name] = np.empty(shape, dtype=object)
+        return
     if found.native is not None and "unit" not in stated:
         stated["unit"] = ""
     declared = _variable(build, name, entry, found, mod, shape, _text(stated.pop("unit", "")))
@@ -146,8 +149,9 @@ def _fixed(
         if "start" in stated:
             build.component.modify(**{name: Start(nested(_value(stated["start"])))})
         return
-    value = value or stated.get("start")
-    given = value.value() if isinstance(value, Bound) else value
+    start = stated.get("start")
+    value, given = value or (start if isinstance(start, Bound) else None), start
+    given = given if value is None else value.value()
     if given is None and (constant or not real):
         raise entry.wrong(f"'{name}' has no value; give one")
     if given is not None:
@@ -157,8 +161,8 @@ def _fixed(
         given = _spread(entry, name, given, known, value)
     elif isinstance(given, np.ndarray):
         raise entry.wrong(f"'{name}' is a single value, not an array")
-    if constant or not real:
-        build.made[name] = given
+    if constant or not real or 0 in known:
+        build.made[name] = np.empty(known, dtype=object) if 0 in known else given
         return
     low, high = (_value(stated.get(k)) for k in ("min", "max"))
     folded = 0.0 if isinstance(given, int | float) and given == 0 else None
@@ -209,7 +213,7 @@ def _sizes(build: Any, entry: Entry, value: Any, sizes: list[tuple[Any, Frame]])
     found: list[int] = []
     for place, (expression, frame) in enumerate(sizes):
         if not isinstance(expression, Whole):
-            found.append(build.size(expression, frame))
+            found.append(Interpreter(frame).size(expression))
             continue
         given = value.value() if isinstance(value, Bound) else value
         if not isinstance(given, np.ndarray) or place >= given.ndim:

@@ -1,0 +1,36 @@
+"""What public libraries write: names, sizes, redeclarations, buses."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import acausal as ac
+
+FILE = Path(__file__).with_name("Idioms.mo")
+MOVES = {
+    "free.x[1]": 1,
+    "free.x[2]": -4,
+    "population.g.species.population": 4 - 0.5 - 1,
+    "tank.c[1]": 1,
+    "tank.c[2]": 2,
+    "fast.law.x": -5,
+    "redeclared.law.x": -2,
+}
+"""State -> its derivative where every state is 1."""
+
+
+@pytest.fixture(scope="module")
+def system() -> ac.System:
+    return ac.compile(ac.load(FILE, "Idioms.All"))
+
+
+def test_states_move_as_their_equations_say(system: ac.System) -> None:
+    ones = np.ones(len(system.states))
+    found = system.vector_field(0.0, ones, None, system.parameters())
+    moves = dict(zip(system.states, map(float, found), strict=True))
+    assert moves == pytest.approx(MOVES)
+
+
+def test_names_are_those_of_the_text(system: ac.System) -> None:
+    assert {"population.'1st'.replace", "population.g.document"} <= set(system.parameters())
