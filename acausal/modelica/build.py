@@ -21,6 +21,7 @@ from acausal.modelica.modifications import (
     fields_of,
     given_by,
     modification,
+    redeclared_class,
 )
 from acausal.modelica.operators import Frame
 from acausal.modelica.outer import inner_of
@@ -187,8 +188,8 @@ class Build:
             self._refuse(
                 f"parts within parts more than {MAX_DEPTH} deep; does '{definition.name}' contain itself?"
             )
-        view = self.node.view()
         self._redeclare()
+        view = self.node.view()
         native = [
             *(g for g in self.given if g.name not in view.entries and g.name not in self.classes),
             *(
@@ -263,6 +264,7 @@ class Build:
             definition = element if isinstance(element, ClassDefinition) else element.redeclared
             assert isinstance(definition, ClassDefinition)
             self.classes.setdefault(name, redeclared_class(definition, self.frame(node)))
+        self.node = self.node.with_classes(self.classes)
 
     def member(self, name: str) -> Any:
         """A component, which is made if it is needed for the first time: its value, references, part or connector.
@@ -408,24 +410,6 @@ class Build:
         node.children = dict(sorted(node.children.items(), key=lambda item: place(item[0])))
         own = sorted(node.own_declarations.items(), key=lambda item: place(item[0]))
         node.own_declarations = dict(own)
-
-
-def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
-    """The class that a redeclaration states; the same for the same text."""
-    key = f"redeclared at {definition.at} as {definition.name}"
-    known = frame.node.children
-    if key not in known:
-        short = definition.short
-        if short is not None and not short.modifier.arguments and not short.subscripts:
-            found, rest = frame.find(short.base.words)
-            if found is None or rest:
-                raise frame.node.unknown(short.base)
-            if frame.build is not None and short.base.words[0] in frame.build.classes:
-                return found
-            known[key] = found
-        else:
-            known[key] = ClassNode(definition, frame.node, frame.node.tree)
-    return known[key]
 
 
 def _is_composite(value: Any) -> bool:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -84,6 +84,25 @@ class ClassView:
     subscripts: list[tuple[Any, ClassNode]] = field(default_factory=list)
     causality: str = ""
     connection: str = ""
+
+    def within(self, scope: Callable[[ClassNode], ClassNode]) -> ClassView:
+        """The same, with names looked up elsewhere."""
+
+        def moved(pairs: list[Any]) -> list[Any]:
+            return [(one, scope(node)) for one, node in pairs]
+
+        entries = {
+            n: Entry(e.declared, scope(e.node), moved(e.modifiers)) for n, e in self.entries.items()
+        }
+        return replace(
+            self,
+            natives=[(native, moved(given)) for native, given in self.natives],
+            attributes=moved(self.attributes),
+            entries=entries,
+            sections=[(kind, stated, scope(node)) for kind, stated, node in self.sections],
+            classes={n: (c, scope(node)) for n, (c, node) in self.classes.items()},
+            subscripts=moved(self.subscripts),
+        )
 
 
 class ClassNode:
@@ -189,10 +208,46 @@ class ClassNode:
                 base = self.base(extends, quiet=True)
                 found = self.tree.inside(base, name)
                 if found is not None:
-                    return found
+                    return self._inherited_class(name, found)
         finally:
             self._searching.discard(name)
         return None
+
+    def with_classes(self, classes: Mapping[str, Any]) -> ClassNode:
+        """The same class with other classes in the place of replaceable ones; the same for the same classes."""
+        if not classes:
+            return self
+        key = f"with {', '.join(f'{name} at {id(cls)}' for name, cls in classes.items())}"
+        if key not in self.children:
+            found = ClassNode(self.definition, self.parent, self.tree, self.folder)
+            found.children |= classes
+            found.redeclares = True
+            self.children[key] = found
+        return self.children[key]
+
+    @cached_property
+    def redeclares(self) -> bool:
+        """Whether names mean something else here than in its bases, so that what it inherits is looked up here."""
+        arguments = [a for clause in self.extends for a in clause.modifier.arguments]
+        classes = any(isinstance(a.redeclared, ClassDefinition) for a in arguments)
+        return classes or self.definition.kind == "package"
+
+    def _scope(self, base: ClassNode) -> ClassNode:
+        """Where names in what is inherited from a base are looked up."""
+        if not self.redeclares:
+            return base
+        return self.children.setdefault(f"scope of {id(base)}", Inherited(base, self))
+
+    def _inherited_class(self, name: str, found: Any) -> Any:
+        """A class that a base defines, as one of this class."""
+        parent = found.parent if isinstance(found, ClassNode) else None
+        if not isinstance(parent, ClassNode) or not self.redeclares:
+            return found
+        scope = self._scope(parent)
+        known = self.children
+        return known.setdefault(
+            f"inherited {name}", ClassNode(found.definition, scope, self.tree, found.folder)
+        )
 
     @cached_property
     def extends(self) -> list[Extends]:
@@ -208,9 +263,10 @@ class ClassNode:
         if self.definition.extends_inherited and extends is self.extends[0]:
             above = self.parent
             for clause in above.extends if isinstance(above, ClassNode) else ():
-                found = self.tree.inside(above.base(clause), self.definition.name)  # pyright: ignore[reportOptionalMemberAccess, reportAttributeAccessIssue]
+                assert isinstance(above, ClassNode)
+                found = self.tree.inside(above.base(clause), self.definition.name)
                 if found is not None:
-                    return found
+                    return above._inherited_class(f"{self.definition.name} of the base", found)
         found, rest = self.lookup(
             extends.base.words, skip=self.definition.name if self.definition.short else ""
         )
@@ -376,7 +432,7 @@ class ClassNode:
                     f"'{clause.base.text}' is not a class to extend",
                     len(clause.base.text),
                 )
-        inherited = base.view()
+        inherited = base.view() if not self.redeclares else base.view().within(self._scope)
         for native, given in inherited.natives:
             view.natives.append((native, [*self._for_native(arguments, inherited), *given]))
         if inherited.predefined is not None:
@@ -442,6 +498,20 @@ class ClassNode:
         stated = order.read_text(encoding="utf-8").split("\n") if order.is_file() else []
         first = [name.strip() for name in stated if name.strip() in found]
         return list(dict.fromkeys((*first, *found)))
+
+
+class Inherited(ClassNode):
+    """A class as the place of what another one inherits from it: names mean there what they mean in the heir."""
+
+    def __init__(self, base: ClassNode, heir: ClassNode) -> None:
+        super().__init__(base.definition, base.parent, base.tree, base.folder)
+        self.heir = heir
+
+    def member(self, name: str) -> Any:
+        return self.heir.member(name)
+
+    def view(self) -> ClassView:
+        return self.heir.view()
 
 
 @dataclass(frozen=True, eq=False)

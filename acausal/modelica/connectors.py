@@ -9,8 +9,16 @@ from typing import Any, cast
 from acausal.modelica.classes import ClassNode, Entry
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import modify_connector
-from acausal.modelica.modifications import Bound, Given, Modification, given_by, modification
+from acausal.modelica.modifications import (
+    Bound,
+    Given,
+    Modification,
+    given_by,
+    modification,
+    redeclared_class,
+)
 from acausal.modelica.operators import Frame
+from acausal.modelica.syntax import ClassDefinition
 from acausal.modelica.types import Type, attributes_of, type_of_declared
 from acausal.modelica.values import Record, attribute_of, of
 from acausal.modelica.variables import declare
@@ -23,6 +31,10 @@ def connector(build: Any, name: str, found: Type, inner: list[Given]) -> Any:
     Their names are paths, such as ``plug.pin[1]``, so that each belongs to the component itself.
     """
     node = found.node
+    if node is not None:
+        classes = [g for g in inner if isinstance(g.redeclared, ClassDefinition)]
+        node = node.with_classes({g.name: redeclared_class(g.redeclared, g.frame) for g in classes})
+        inner = [g for g in inner if g not in classes]
     if node is not None and (node.definition.kind != "connector" or _is_composite(node)):
         return _composite(build, name, found, node, inner)
     build.later.append(lambda: modify_connector(build, name, inner))

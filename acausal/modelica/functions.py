@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -187,17 +188,16 @@ class Interpreter(Algorithms):
                 local[name] = as_record(values[name])
                 continue
             expression = entry.declared.modifier.value
+            there = inner.elsewhere(replace(frame, node=entry.node))
             if expression is not None:
-                local[name] = inner.elsewhere(
-                    Frame(entry.node, None, local, frame.events, frame.calls)
-                ).value(expression)
+                local[name] = there.value(expression)
             elif name in inputs:
                 raise self.wrong(f"{definition.name} needs '{name}'", length)
             else:
-                local[name] = inner.empty(entry)
+                local[name] = there.empty(entry)
         for kind, statements, owner in view.sections:
             if kind == "algorithms":
-                inner.frame = Frame(owner, None, local, frame.events, frame.calls)
+                inner.frame = replace(frame, node=owner)
                 with suppress(Left):
                     inner.execute(statements, local)
         self.operations, self.statements = inner.operations, inner.statements

@@ -11,6 +11,7 @@ from acausal.modelica.classes import ClassNode
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import (
+    ClassDefinition,
     Declared,
     Expression,
     LiteralConstant,
@@ -181,3 +182,21 @@ def fields_of(node: ClassNode, value: Bound) -> list[Given]:
             )
         )
     return found
+
+
+def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
+    """The class that a redeclaration states; the same for the same text."""
+    key = f"redeclared at {definition.at} as {definition.name}"
+    known = frame.node.children
+    if key not in known:
+        short = definition.short
+        if short is not None and not short.modifier.arguments and not short.subscripts:
+            found, rest = frame.find(short.base.words)
+            if found is None or rest:
+                raise frame.node.unknown(short.base)
+            if frame.build is not None and short.base.words[0] in frame.build.classes:
+                return found
+            known[key] = found
+        else:
+            known[key] = ClassNode(definition, frame.node, frame.node.tree)
+    return known[key]
