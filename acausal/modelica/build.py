@@ -9,6 +9,7 @@ from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
 from acausal.modelica.classes import ClassNode, Entry
 from acausal.modelica.connectors import connector
+from acausal.modelica.expandable import expand
 from acausal.modelica.form import note_form
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import make_part, modify_part
@@ -214,6 +215,7 @@ class Build:
     def complete(self) -> None:
         """Make all members that no expression has asked for, connect them, and read what they state."""
         self._make_all()
+        expand(self)
         self._connect_all()
         self.graph.cut()
         self._finish()

@@ -22,7 +22,7 @@ from acausal.modelica.syntax import (
     Loop,
     Statement,
 )
-from acausal.modelica.values import Absent, Record, as_record, is_array, is_end, nested
+from acausal.modelica.values import Absent, Bus, Member, Record, as_record, is_array, is_end, nested
 from acausal.modeling import Component, Connector, Eq, Reference, owner_and_name
 
 
@@ -46,9 +46,13 @@ class Connecting(Interpreter):
                 case Branches() if _connects([s for _, body in statement.branches for s in body]):
                     self.connections(self._chosen(statement))
                 case Do() if is_of_graph(statement):
-                    overconstrained.note(self, statement.call)
+                    self.noted(statement.call)
                 case _:
                     pass
+
+    def noted(self, call: FunctionCall) -> None:
+        """What is stated about the graph of connections."""
+        overconstrained.note(self, call)
 
     def _connect(self, statement: Connect) -> None:
         self.connecting = True
@@ -65,6 +69,8 @@ class Connecting(Interpreter):
         """Connect two ends; of those that consist of several each with that of its name."""
         assert self.frame.build is not None
         match left, right:
+            case (Bus() | Member(), _) | (_, Bus() | Member()):
+                return  # what comes of it is connected already
             case Record(), Record():
                 ends = [
                     {k: nested(v) for k, v in r.fields.items() if is_end(v)} for r in (left, right)

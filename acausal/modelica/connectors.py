@@ -20,7 +20,7 @@ from acausal.modelica.modifications import (
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import ClassDefinition
 from acausal.modelica.types import Type, attributes_of, type_of_declared
-from acausal.modelica.values import Record, attribute_of, of
+from acausal.modelica.values import Bus, Record, attribute_of, of
 from acausal.modelica.variables import declare
 from acausal.modeling import Connector, Flow, Potential, Variable
 
@@ -35,10 +35,30 @@ def connector(build: Any, name: str, found: Type, inner: list[Given]) -> Any:
         classes = [g for g in inner if isinstance(g.redeclared, ClassDefinition)]
         node = node.with_classes({g.name: redeclared_class(g.redeclared, g.frame) for g in classes})
         inner = [g for g in inner if g not in classes]
+    if node is not None and is_expandable(node):
+        return bus(build, name, node)
     if node is not None and (node.definition.kind != "connector" or _is_composite(node)):
         return _composite(build, name, found, node, inner)
     build.later.append(lambda: modify_connector(build, name, inner))
     return found.native() if node is None else connector_class(node)()
+
+
+def is_expandable(node: ClassNode) -> bool:
+    """Whether a connector, or one that it extends, is expandable."""
+    bases = [node.base(clause) for clause in node.extends]
+    return node.definition.expandable or any(
+        isinstance(base, ClassNode) and is_expandable(base) for base in bases
+    )
+
+
+def bus(build: Any, name: str, node: ClassNode) -> Bus:
+    """An expandable connector; of its declared members only those are there already that are expandable, too."""
+    found = Bus(build, name)
+    for word, entry in node.view().entries.items():
+        inner = _type(entry).node
+        if inner is not None and not entry.declared.subscripts and is_expandable(inner):
+            found.fields[word] = bus(build, f"{name}.{word}", inner)
+    return found
 
 
 def _is_composite(node: ClassNode) -> bool:
@@ -127,8 +147,6 @@ def _class(
 ) -> type[Connector]:
     """The class of the potentials and flows of a connector; ``known`` has values of its parameters."""
     bases = tuple(n.cls for n, _ in node.view().natives) or (Connector,)
-    if node.definition.expandable:
-        raise node.refused("expandable connectors are not supported")
     declared = {name: _variable(entry, known, connection) for name, entry in entries.items()}
     own = {attribute_of(name): v for name, v in declared.items()}
     cls: Any = type(node.definition.name, bases, {**own, "__module__": __name__})

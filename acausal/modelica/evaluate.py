@@ -32,6 +32,7 @@ from acausal.modelica.syntax import (
 )
 from acausal.modelica.values import (
     Absent,
+    Member,
     Record,
     array_of,
     as_array,
@@ -171,6 +172,9 @@ class Evaluator(Operators):
         """Some elements of an array, or of a list of parts."""
         if isinstance(value, Absent):
             return value
+        if isinstance(value, Member):
+            index = [self.whole(self.value(s), "a subscript here") for s in subscripts]
+            return value.element(index)
         if not is_array(value):
             raise self.wrong("this is not an array; it takes no subscripts")
         shape = np.shape(_shape(value))
@@ -232,7 +236,7 @@ class Evaluator(Operators):
             value = self.subscripted(value, name.subscripts[i - 1])
         while i < len(name.words):
             inner = of(value, name.words[i])
-            if inner is None:
+            if inner is None or (isinstance(inner, Member) and not self.connecting):
                 raise self.unknown(name, i, value)
             value = inner
             if i in name.subscripts:

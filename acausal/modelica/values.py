@@ -31,6 +31,48 @@ class Record:
     def __init__(self, fields: dict[str, Any], node: Any = None) -> None:
         self.fields, self.node = fields, node
 
+    def field(self, word: str) -> Any:
+        """The field of that name; None if there is none."""
+        return self.fields.get(word)
+
+
+class Bus(Record):
+    """An expandable connector.
+
+    Attributes:
+        build, name: of the component that it belongs to, and its name there.
+        links: buses that it is connected to, each with the build of the class that states it.
+        ends: member -> what is connected to it, see `acausal.modelica.expandable.End`.
+    """
+
+    def __init__(self, build: Any, name: str) -> None:
+        super().__init__({})
+        self.build, self.name = build, name
+        self.links: list[tuple[Any, Bus]] = []
+        self.ends: dict[str, list[Any]] = {}
+
+    def field(self, word: str) -> Any:
+        return self.fields.get(word, Member(self, word))
+
+    def nested(self, word: str) -> Bus:
+        """The member of that name, which is expandable, too."""
+        return self.fields.setdefault(word, Bus(self.build, f"{self.name}.{word}"))
+
+
+class Member(Record):
+    """A member of an expandable connector that is not there yet."""
+
+    def __init__(self, bus: Bus, name: str) -> None:
+        super().__init__({})
+        self.bus, self.name = bus, name
+
+    def field(self, word: str) -> Any:
+        return self.bus.nested(self.name).field(word)
+
+    def element(self, index: Sequence[int]) -> Any:
+        """An element; each is a member of its own."""
+        return self.bus.field(f"{self.name}[{','.join(map(str, index))}]")
+
 
 def is_array(value: Any) -> bool:
     """Whether this is an array of numbers, truth values or texts, or a list of parts."""
@@ -114,7 +156,7 @@ def of(value: Any, word: str) -> Any:
         case Absent():
             return value
         case Record():
-            return value.fields.get(word)
+            return value.field(word)
         case np.ndarray() if is_record(value):
             return each(lambda v: of(v, word), value)
         case list() | tuple() if value:

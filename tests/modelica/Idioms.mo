@@ -93,7 +93,140 @@ package Idioms "What public libraries write; each model has a known derivative"
     extends Fast(redeclare Linear law);
   end Redeclared;
 
+  partial package Phases "a package of sizes and functions, whose members see those of the package that extends it"
+    constant Integer n;
+    constant Real gain = 10*n;
+    type Voltage = Real(unit = "V", nominal = gain);
+    replaceable partial function turned
+      input Real x[n];
+      output Real y[n];
+    end turned;
+    function twice
+      input Real x[n];
+      output Real y[n] = 2*turned(x);
+    end twice;
+  end Phases;
+
+  package Direct
+    extends Phases(n = 1);
+    redeclare function extends turned
+    algorithm
+      y := -x;
+    end turned;
+  end Direct;
+
+  package Rotating
+    extends Phases(n = 2);
+    redeclare function extends turned
+    algorithm
+      y := {-x[2], x[1]};
+    end turned;
+  end Rotating;
+
+  connector Terminal
+    replaceable package System = Phases;
+    System.Voltage v[System.n];
+    flow Real i[System.n];
+  end Terminal;
+
+  connector Plug
+    extends Terminal;
+  end Plug;
+
+  model Machine
+    replaceable package System = Direct constrainedby Phases;
+    function turned = System.turned;
+    Plug plug(redeclare package System = System);
+    Real x[System.n](each start = 1, each fixed = true) = plug.v;
+  equation
+    der(x) = plug.i + turned(x) + System.gain*System.twice(x);
+  end Machine;
+
+  model Load
+    replaceable package System = Direct constrainedby Phases;
+    Terminal t(redeclare package System = System);
+  equation
+    t.i = t.v;
+  end Load;
+
+  model Drive
+    replaceable package System = Direct constrainedby Phases;
+    Machine machine(redeclare package System = System);
+    Load load(redeclare package System = System);
+  equation
+    connect(machine.plug, load.t);
+  end Drive;
+
+  expandable connector Bus
+  end Bus;
+
+  expandable connector ControlBus
+    extends Bus;
+    Bus sensors;
+    Real unused;
+  end ControlBus;
+
+  model Mass
+    Bus bus;
+    Modelica.Mechanics.Translational.Components.Mass m(m = 2, s(start = 1, fixed = true), v(start = 1, fixed = true));
+    Modelica.Mechanics.Translational.Sources.Force force;
+    Modelica.Mechanics.Translational.Sensors.PositionSensor position;
+    Modelica.Blocks.Sources.BooleanConstant on;
+  equation
+    connect(force.flange, m.flange_a);
+    connect(m.flange_b, position.flange);
+    connect(bus.force, force.f);
+    connect(position.s, bus.position);
+    connect(bus.flange, m.flange_b);
+    connect(on.y, bus.on);
+  end Mass;
+
+  model Controller "reads a signal through an input of its own"
+    ControlBus bus;
+    Modelica.Blocks.Math.Gain gain(k = -3);
+    Modelica.Blocks.Logical.Switch switch;
+    Modelica.Blocks.Sources.Constant none(k = 0);
+  protected
+    Modelica.Blocks.Interfaces.RealInput u;
+  equation
+    connect(bus.sensors.position, u);
+    connect(u, gain.u);
+    connect(gain.y, switch.u1);
+    connect(none.y, switch.u3);
+    connect(bus.on, switch.u2);
+    connect(switch.y, bus.force);
+  end Controller;
+
+  model Bystander
+    ControlBus bus;
+  end Bystander;
+
+  model Controlled "signals and a flange go through buses, also through one of a part that uses nothing of them"
+    Mass mass;
+    Bystander between;
+    Controller controller;
+    Bus sensors;
+    Modelica.Mechanics.Translational.Components.Spring spring(c = 5);
+    Modelica.Mechanics.Translational.Components.Fixed wall;
+    Modelica.Blocks.Continuous.Integrator sum[2](each y_start = 1);
+  equation
+    connect(mass.bus, between.bus);
+    connect(between.bus, controller.bus);
+    connect(mass.bus.position, sensors.position);
+    connect(sensors, controller.bus.sensors);
+    connect(wall.flange, spring.flange_a);
+    connect(spring.flange_b, mass.bus.flange);
+    for i in 1:2 loop
+      connect(between.bus.sum[i], sum[i].u);
+    end for;
+    connect(mass.bus.position, between.bus.sum[1]);
+    connect(sum[1].y, between.bus.sum[2]);
+  end Controlled;
+
   model All
+    Drive direct;
+    Drive rotating(redeclare package System = Rotating);
+    Controlled controlled;
     Free free;
     Population population;
     Tank tank;

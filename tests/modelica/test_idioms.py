@@ -9,6 +9,14 @@ import acausal as ac
 
 FILE = Path(__file__).with_name("Idioms.mo")
 MOVES = {
+    # -load + turned + gain*2*turned
+    "direct.machine.x[1]": -1 - 1 - 10 * 2,
+    "rotating.machine.x[1]": -1 - 1 - 20 * 2,
+    "rotating.machine.x[2]": -1 + 1 + 20 * 2,
+    "controlled.mass.m.s": 1,
+    "controlled.mass.m.v": (-3 - 5) / 2,
+    "controlled.sum[1].y": 1,
+    "controlled.sum[2].y": 1,
     "free.x[1]": 1,
     "free.x[2]": -4,
     "population.g.species.population": 4 - 0.5 - 1,
