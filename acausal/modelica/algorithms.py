@@ -180,7 +180,10 @@ class Algorithms(Overloading):
         if value is otherwise:
             return value
         if value is None or otherwise is None:
-            return None
+            if self.frame.build is not None:
+                return None
+            # nobody may read a variable of a function that a branch leaves undefined: any value will do there
+            return otherwise if value is None else value
         if isinstance(value, np.ndarray) and isinstance(otherwise, np.ndarray):
             return each(lambda a, b: self._merged(holds, a, b), value, otherwise)
         if isinstance(value, Record) and isinstance(otherwise, Record):

@@ -230,7 +230,8 @@ class ClassNode:
         """Whether names mean something else here than in its bases, so that what it inherits is looked up here."""
         arguments = [a for clause in self.extends for a in clause.modifier.arguments]
         classes = any(isinstance(a.redeclared, ClassDefinition) for a in arguments)
-        return classes or self.definition.kind == "package"
+        own = any(element.prefixes.redeclare for element in self._elements.values())
+        return classes or own or self.definition.kind == "package"
 
     def _scope(self, base: ClassNode) -> ClassNode:
         """Where names in what is inherited from a base are looked up."""

@@ -86,6 +86,10 @@ class Connecting(Interpreter):
             case list(), list() if len(left) == len(right):
                 for a, b in zip(left, right, strict=True):
                     self._join(a, b)
+            case (Connector() | Reference(), Connector() | Reference()) if owner_and_name(
+                left
+            ) == owner_and_name(right):
+                return  # one end
             case _:
                 try:
                     owners = [

@@ -17,6 +17,7 @@ from acausal.modelica.language import SPECIAL
 from acausal.modelica.meanings import Native, Predefined, Value
 from acausal.modelica.operators import MAX_CALLS, Frame
 from acausal.modelica.syntax import (
+    DottedName,
     Expression,
     FunctionCall,
     LiteralConstant,
@@ -30,7 +31,7 @@ from acausal.modelica.values import (
     elements,
     with_fields,
 )
-from acausal.modeling import check_size
+from acausal.modeling import Component, check_size
 from acausal.netlist import function as known_function
 
 TEXTS: dict[str, Callable[..., Any]] = {
@@ -54,9 +55,14 @@ class Interpreter(Algorithms):
             return special(self, call)
         if name in REFUSED and name not in self.frame.local:
             raise self.wrong(f"{name}(...) is not supported; {REFUSED[name]}", len(name))
-        found, rest = self.frame.find(call.function.words)
+        found, rest = self.frame.find(words)
         if rest:
             found = None
+        if found is None and len(words) > 1:
+            found = self._of_part(words)
+        if isinstance(found, ClassNode) and found.definition.short:
+            base = found.base(found.extends[0])
+            found = base if isinstance(base, Value) else found
         if isinstance(found, ClassNode) and found.definition.kind == "function":
             results = self.inlined(found, call)
             return results[0]
@@ -85,6 +91,17 @@ class Interpreter(Algorithms):
             raise self.wrong(f"'{name}' is not a function", len(name))
         self.at = call.function.at
         raise self.frame.node.unknown(call.function, "function")
+
+    def _of_part(self, words: tuple[str, ...]) -> Any:
+        """A function of the class of a part, such as ``oil.density``."""
+        build = self.frame.build
+        if build is None or words[0] not in build.names:
+            return None
+        before, self.connecting = self.connecting, True
+        part = self.name(DottedName(words[:-1], {}, self.at))
+        self.connecting = before
+        inner = part.__dict__.get("_build") if isinstance(part, Component) else None
+        return None if inner is None else inner.node.member(words[-1])
 
     def _of_library(
         self, function: Callable[..., Any], name: str, given: list[Any], named: dict[str, Any]

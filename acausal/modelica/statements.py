@@ -17,6 +17,7 @@ from acausal.modelica.values import (
 )
 from acausal.modeling import (
     Component,
+    Connector,
     Discrete,
     Eq,
     Input,
@@ -181,6 +182,7 @@ def _target(part: Component, path: str) -> Any:
     build = part.__dict__.get("_build")
     member = build.made.get(path) if build is not None else None
     owner, _, name = path.rpartition(".")
-    if member is None and owner:
-        return of(attribute(part, owner), name)
+    connector = part._node.declaration(owner)
+    if member is None and isinstance(connector, Connector):
+        return of(connector._bind(part._node, owner), name)
     return as_array(attribute(part, path)) if member is None else member

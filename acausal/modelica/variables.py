@@ -67,6 +67,8 @@ def declare(
     declared = _variable(build, name, entry, found, mod, shape, _text(stated.pop("unit", "")))
     build.assign(name, entry, declared)
     start = {k: _value(v) for k, v in stated.items() if k not in ("min", "max")}
+    if isinstance(start.get("start"), np.ndarray):
+        start["start"] = each(lambda v: int(v) if isinstance(v, bool) else v, start["start"])
     if found.predefined != "Real" and not isinstance(declared, Discrete):
         start.pop("fixed", None)  # of its value before the start, which is that of its source
     for key in ("fixed", "stateSelect"):

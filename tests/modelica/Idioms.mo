@@ -223,7 +223,68 @@ package Idioms "What public libraries write; each model has a known derivative"
     connect(sum[1].y, between.bus.sum[2]);
   end Controlled;
 
+  function piecewise "a value that only branches assign"
+    input Real x, xs[:], ys[:];
+    output Real y;
+  algorithm
+    for i in 1:size(xs, 1) - 1 loop
+      if x >= xs[i] and x <= xs[i + 1] then
+        y := ys[i] + (ys[i + 1] - ys[i])*(x - xs[i])/(xs[i + 1] - xs[i]);
+      end if;
+    end for;
+  end piecewise;
+
+  partial model Fluid
+    replaceable function density
+      input Real p;
+      output Real d;
+    end density;
+    function twice
+      input Real p;
+      output Real d = 2*density(p);
+    end twice;
+  end Fluid;
+
+  model Oil
+    extends Fluid;
+    redeclare function density
+      input Real p;
+      output Real d = 1000 + p;
+    end density;
+  end Oil;
+
+  connector Plain
+    Real c;
+    flow Real n;
+  end Plain;
+
+  connector Port
+    extends Plain;
+    input Real V;
+  end Port;
+
+  model Pipe "functions of a part and of the library, values for variables of a connector"
+    outer Oil oil;
+    function arctan = Modelica.Math.atan;
+    Real x(start = 1, fixed = true);
+    Port port(c = 3*x);
+    Modelica.Blocks.Interfaces.BooleanOutput open[2](start = fill(true, 2), each fixed = true);
+  equation
+    port.V = port.c;
+    der(x) = port.V + piecewise(x, {0, 2, 5}, {1, 3, 9}) + oil.twice(5) + arctan(0);
+    connect(port, port);
+    when time > 1 then
+      open = {false, not pre(open[2])};
+    end when;
+  end Pipe;
+
+  model Piping
+    inner Oil oil;
+    Pipe pipe;
+  end Piping;
+
   model All
+    Piping piping;
     Drive direct;
     Drive rotating(redeclare package System = Rotating);
     Controlled controlled;
