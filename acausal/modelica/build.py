@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
 from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
@@ -45,7 +45,7 @@ class ModelicaModel(Component):
         modifiers: by name, values for parameters, as for every component.
     """
 
-    _class: ClassVar[ClassNode]
+    _class: ClassVar[ClassNode] = cast(ClassNode, None)
     _build: Build
     _units_bind: ClassVar[bool] = False
     """Units are attributes in Modelica, which need not agree."""

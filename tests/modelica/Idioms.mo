@@ -270,17 +270,29 @@ package Idioms "What public libraries write; each model has a known derivative"
     Port port(c = 3*x);
     Modelica.Blocks.Interfaces.BooleanOutput open[2](start = fill(true, 2), each fixed = true);
   equation
-    port.V = port.c;
-    der(x) = port.V + piecewise(x, {0, 2, 5}, {1, 3, 9}) + oil.twice(5) + arctan(0);
+    der(x) = port.c + piecewise(x, {0, 2, 5}, {1, 3, 9}) + oil.twice(5) + arctan(0);
     connect(port, port);
     when time > 1 then
       open = {false, not pre(open[2])};
     end when;
   end Pipe;
 
+  block Weighted "sizes that an interface of the library declares"
+    extends Modelica.Blocks.Interfaces.MISO;
+    parameter Real k[nin];
+    Real sum(start = 1, fixed = true);
+  equation
+    y = k*u;
+    der(sum) = y;
+  end Weighted;
+
   model Piping
     inner Oil oil;
     Pipe pipe;
+    Weighted weighted(nin = 2, k = {3, 4});
+  equation
+    pipe.port.V = 0;
+    weighted.u = {pipe.x, 1};
   end Piping;
 
   model All

@@ -14,6 +14,7 @@ MOVES = {
     "rotating.machine.x[1]": -1 - 1 - 20 * 2,
     "rotating.machine.x[2]": -1 + 1 + 20 * 2,
     "piping.pipe.x": 3 + 2 + 2010,
+    "piping.weighted.sum": 3 + 4,
     "controlled.mass.m.s": 1,
     "controlled.mass.m.v": (-3 - 5) / 2,
     "controlled.sum[1].y": 1,
