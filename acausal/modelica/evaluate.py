@@ -68,9 +68,10 @@ class Evaluator(Operators):
         self.at = expression.at
         try:
             return self._value(expression)
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             self.at = expression.at
-            raise self.wrong(str(error)) from None
+            deep = "this leads to conditions within conditions that are too deep"
+            raise self.wrong(deep if isinstance(error, RecursionError) else str(error)) from None
         finally:
             self.at = before
 

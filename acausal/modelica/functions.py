@@ -63,6 +63,9 @@ class Interpreter(Algorithms):
         if isinstance(found, ClassNode) and found.definition.short:
             base = found.base(found.extends[0])
             found = base if isinstance(base, Value) else found
+        special = SPECIAL.get(found.full) if isinstance(found, ClassNode) else None
+        if special is not None:
+            return special(self, call)
         if isinstance(found, ClassNode) and found.definition.kind == "function":
             results = self.inlined(found, call)
             return results[0]

@@ -282,6 +282,21 @@ def _string(self: Evaluator, call: FunctionCall) -> Any:
     return str(value)
 
 
+def _resource(self: Evaluator, call: FunctionCall) -> Any:
+    """The path of a file; one within a package, ``modelica://Package/file``, is relative to its folder."""
+    (text,) = self.arguments(call, 1)
+    if not isinstance(text, str):
+        raise self.wrong("the name of a file is a text")
+    package, _, rest = text.removeprefix("modelica://").partition("/")
+    if not text.startswith("modelica://"):
+        return text
+    node = self.frame.node.tree.resolve(package)
+    folder = getattr(node, "folder", None)
+    if folder is None:
+        raise self.wrong(f"there is no folder of a package '{package}'")
+    return str(folder / rest)
+
+
 SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "der": _der, "pre": _mapped(pre), "edge": _mapped(edge), "change": _mapped(change),
     "initial": _initial, "sample": _sample, "noEvent": _no_event, "smooth": _smooth,
@@ -295,6 +310,7 @@ SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "integer": _rounding(_floor, 1), "floor": _rounding(_floor, 1), "ceil": _rounding(_ceil, 1),
     "div": _rounding(_div, 2), "mod": _rounding(_mod, 2), "rem": _rounding(_rem, 2),
     "Integer": _rounding(_integer_of, 1), "String": _string, "cardinality": _cardinality, "assert": _assertion,
+    "Modelica.Utilities.Files.loadResource": _resource,
     "Connections.isRoot": is_root, "Connections.rooted": is_rooted, "rooted": is_rooted,
 }  # fmt: skip
 """Functions of the language that need more than the values of their arguments."""

@@ -41,7 +41,9 @@ from acausal.modeling import (
     Eq,
     Reference,
     Reinit,
+    Variable,
     When,
+    der,
     pre,
 )
 
@@ -72,7 +74,9 @@ class SectionReader(Connecting):
                 case Branches() if statement.word == "if":
                     yield from self._cases(statement.branches)
                 case Branches():
+                    self.further = []
                     yield self._when(statement, lambda body: list(self._at_event(body)))
+                    yield from self.further
                 case Do() if not is_of_graph(statement):
                     self.perform(statement.call)
                 case Do() | Connect():
@@ -206,7 +210,7 @@ class SectionReader(Connecting):
                     for equation in self._equation(statement):
                         if not isinstance(equation.lhs, Reference):
                             raise self.wrong("an equation within 'when' is 'variable = value'")
-                        yield equation
+                        yield self._sampled(equation)
                 case Do() if statement.call.function.text == "reinit":
                     yield from self._reinit(statement.call)
                 case Do():
@@ -301,16 +305,31 @@ class SectionReader(Connecting):
             parts = sp.preorder_traversal(v) if isinstance(v, sp.Basic) else ()
             if len(list(islice(parts, LARGE))) < LARGE or not _is_discrete(variable):
                 return v
-            build: Any = self.frame.build
-            name = re.sub(r"\W+", "_", f"{variable.path}_{len(self.further) + 1}")
-            if name not in vars(build.component):
-                setattr(build.component, name, Discrete(kind=variable.declaration.kind))
-                build.types[name] = build.types[word]
-            found = getattr(build.component, name)
-            self.further += self.pairs(found, v)
-            return found
+            kind = variable.declaration.kind
+            return self.named(
+                f"{variable.path}_{len(self.further) + 1}", Discrete(kind=kind), word, v
+            )
 
         return each(one, self.assigned[word], value) if word in self.assigned else value
+
+    def named(self, name: str, declared: Variable, word: str, value: Any) -> Any:
+        """A further variable for a value, of the type of another one."""
+        build: Any = self.frame.build
+        name = re.sub(r"\W+", "_", name)
+        if name not in vars(build.component):
+            setattr(build.component, name, declared)
+            build.types[name] = build.types.get(word, "Real")
+        found = getattr(build.component, name)
+        self.further += self.pairs(found, value)
+        return found
+
+    def _sampled(self, equation: Eq) -> Eq:
+        """An equation within ``when``; its derivatives become variables, which are there at all times."""
+        name, value = equation.lhs.path, equation.rhs
+        for i, one in enumerate(sorted(value.atoms(der), key=str), start=1):
+            variable = self.named(f"{name}_rate_{i}", Variable(), "", one)
+            value = value.xreplace({one: variable})
+        return Eq(equation.lhs, value)
 
     def _assigned(
         self,
@@ -326,7 +345,7 @@ class SectionReader(Connecting):
         self.frame, self.jumps = Frame(frame.node, frame.build, inner, frame.events), []
         self.execute(body, inner)
         changed = [w for w in inner if inner[w] is not before.get(w)]
-        found = [e for w in changed for e in self.pairs(variables[w], inner[w])]
+        found = [self._sampled(e) for w in changed for e in self.pairs(variables[w], inner[w])]
         found += self.jumps
         self.frame, self.jumps = frame, jumps
         return found

@@ -44,3 +44,55 @@ def test_states_move_as_their_equations_say(system: ac.System) -> None:
 
 def test_names_are_those_of_the_text(system: ac.System) -> None:
     assert {"population.'1st'.replace", "population.g.document"} <= set(system.parameters())
+
+
+@pytest.mark.slow
+def test_a_derivative_is_sampled(tmp_path: Path) -> None:
+    file = tmp_path / "sampled.mo"
+    file.write_text("""
+        model M
+          Real x(start = 1, fixed = true);
+          Real rate(start = 0, fixed = true), last(start = 0, fixed = true);
+        equation
+          der(x) = -x;
+          when sample(0.25, 0.5) then
+            rate = 3*der(x);
+          end when;
+        algorithm
+          when time > 0.5 then
+            last := der(x);
+          end when;
+        end M;""")
+    run = ac.simulate(ac.compile(ac.load(file)), (0, 1), dt=0.05)
+    assert run["rate"][-1] == pytest.approx(-3 * np.exp(-0.75), rel=1e-6)
+    assert run["last"][-1] == pytest.approx(-np.exp(-0.5), rel=1e-4)
+
+
+def test_files_lie_in_the_folder_of_their_package(tmp_path: Path) -> None:
+    (tmp_path / "Lib").mkdir()
+    (tmp_path / "Lib" / "table.txt").write_text("#1\ndouble tab(2,2)\n0 1\n1 3\n")
+    (tmp_path / "Lib" / "package.mo").write_text("""
+        package Lib
+          model M
+            Modelica.Blocks.Sources.CombiTimeTable t(
+              tableOnFile = true, tableName = "tab", columns = {2},
+              fileName = Modelica.Utilities.Files.loadResource("modelica://Lib/table.txt"));
+            Real y = t.y[1];
+          equation
+            when time > 1 then
+              Modelica.Utilities.Streams.print("done");
+            end when;
+          end M;
+        end Lib;""")
+    with pytest.warns(UserWarning, match="line 10, column 15: this text is not printed"):
+        model = ac.load(tmp_path / "Lib")
+    assert model.t is not None
+
+
+def test_a_unit_that_nobody_knows_is_a_warning(tmp_path: Path) -> None:
+    file = tmp_path / "costs.mo"
+    file.write_text(
+        'model M Real x(unit="dollar", start=1, fixed=true); equation der(x) = -x; end M;'
+    )
+    with pytest.warns(UserWarning, match="M.x: 'dollar' is not a unit"):
+        assert ac.compile(ac.load(file)).states == ("x",)
