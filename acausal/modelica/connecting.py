@@ -11,7 +11,7 @@ from acausal.errors import ModelError
 from acausal.modelica import overconstrained
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.outer import around
-from acausal.modelica.overconstrained import Edge
+from acausal.modelica.overconstrained import Edge, Node
 from acausal.modelica.syntax import (
     Branches,
     Connect,
@@ -22,7 +22,7 @@ from acausal.modelica.syntax import (
     Loop,
     Statement,
 )
-from acausal.modelica.values import Absent, Bus, Member, Record, as_record, is_array, is_end, nested
+from acausal.modelica.values import Absent, Bus, Member, Record, Redundant, as_record, is_array, is_end, nested
 from acausal.modeling import Component, Connector, Eq, Reference, owner_and_name
 
 
@@ -81,7 +81,7 @@ class Connecting(Interpreter):
                 for name, end in ends[0].items():
                     self._join(end, ends[1][name])
                 for name, record in left.fields.items():
-                    if isinstance(record, Component):
+                    if isinstance(record, Component | Redundant):
                         self._relate(record, right.fields[name])
             case list(), list() if len(left) == len(right):
                 for a, b in zip(left, right, strict=True):
@@ -101,10 +101,11 @@ class Connecting(Interpreter):
                 except ModelError as error:
                     raise self.wrong(str(error), len("connect")) from None
 
-    def _relate(self, left: Component, right: Component) -> None:
+    def _relate(self, left: Node, right: Node) -> None:
         """Connect redundant records of two connectors."""
         edge = Edge((left, right), self.at)
-        around(self.frame.build, left._node, right._node).edges.append(edge)
+        owners = [e.build.component if isinstance(e, Redundant) else e for e in edge.ends]
+        around(self.frame.build, *(e._node for e in owners)).edges.append(edge)
         overconstrained.graph_of(self).edges.append(edge)
 
     def related(self, edge: Edge) -> Iterator[Eq]:
@@ -114,7 +115,9 @@ class Connecting(Interpreter):
         if not edge.cut:
             yield from self.pairs(*ends)
             return
-        constraint = ends[0].node.member("equalityConstraint")
+        left = edge.ends[0]
+        node = left.node if isinstance(left, Redundant) else ends[0].node
+        constraint = node.member("equalityConstraint")
         name = DottedName(("equalityConstraint",), {}, edge.at)
         residual = self.inlined(
             constraint, FunctionCall(name, [LiteralConstant(e, edge.at) for e in ends], {}, edge.at)

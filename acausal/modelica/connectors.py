@@ -19,8 +19,8 @@ from acausal.modelica.modifications import (
 )
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import ClassDefinition
-from acausal.modelica.types import Type, attributes_of, type_of_declared
-from acausal.modelica.values import Bus, Record, attribute_of, of
+from acausal.modelica.types import Type, attributes_of, is_overconstrained, type_of_declared
+from acausal.modelica.values import Bus, Record, Redundant, attribute_of, of
 from acausal.modelica.variables import declare
 from acausal.modeling import Connector, Flow, Potential, Variable
 
@@ -70,7 +70,8 @@ def _is_composite(node: ClassNode) -> bool:
 def _is_plain(entry: Entry) -> bool:
     prefixes, found = entry.declared.prefixes, _type(entry)
     causal = prefixes.causality or found.causality or prefixes.variability
-    return found.predefined == "Real" and found.native is None and not causal
+    plain = found.predefined == "Real" and found.native is None and not causal
+    return plain and found.overconstrained is None
 
 
 def _type(entry: Entry) -> Type:
@@ -90,14 +91,16 @@ def _composite(build: Any, name: str, whole: Type, node: ClassNode, given: list[
         sizes = [(s, frame) for s in entry.declared.subscripts]
         sizes += [(s, Frame(n)) for s, n in found.subscripts]
         if found.predefined:
-            if not (found.causality or entry.declared.prefixes.variability or found.native):
+            known = found.causality or entry.declared.prefixes.variability or found.native
+            if not (known or found.overconstrained):
                 raise entry.wrong(f"a {found.predefined} in a connector is an input or output")
             declare(build, path, entry, found, mod, sizes)
         else:
             known = [Interpreter(f).size(s) for s, f in sizes]
             parts = build.parts(path, entry, found, mod, known)
             build.assign(path, entry, parts)
-        fields[word] = build.made[path]
+        made = build.made[path]
+        fields[word] = Redundant(made, found.overconstrained, build) if found.overconstrained else made
     if plain:
         own = [g for g in given if g.name in plain]
         cls = _class(node, plain, fields, whole.connection)
@@ -123,11 +126,6 @@ def _part_of(whole: Type, entry: Entry, mod: Modification, frame: Frame) -> Type
     if is_overconstrained(found.node):
         return found
     return replace(found, causality=causality, connection="" if causality else connection)
-
-
-def is_overconstrained(node: ClassNode) -> bool:
-    """Whether connections of this record in a loop have more equations than it has independent values."""
-    return node.member("equalityConstraint") is not None
 
 
 def connector_class(node: ClassNode) -> type[Connector]:

@@ -34,6 +34,7 @@ from acausal.modelica.values import (
     Absent,
     Member,
     Record,
+    Redundant,
     array_of,
     as_array,
     as_record,
@@ -171,6 +172,7 @@ class Evaluator(Operators):
 
     def subscripted(self, value: Any, subscripts: list[Expression]) -> Any:
         """Some elements of an array, or of a list of parts."""
+        value = value.value if isinstance(value, Redundant) else value
         if isinstance(value, Absent):
             return value
         if isinstance(value, Member):

@@ -30,8 +30,10 @@ from acausal.modelica.syntax import (
 from acausal.modelica.values import (
     Absent,
     Record,
+    as_record,
     each,
     elements,
+    is_record,
     of,
     type_of,
 )
@@ -270,7 +272,8 @@ class SectionReader(Connecting):
         build = self.frame.build
         assert build is not None
         always, at_events = set[str](), set[str]()
-        collect([s for s in stated if not _is_when(s)], always, within=True)
+        own = [s for s in stated if not self._is_of_part(s)]
+        collect([s for s in own if not _is_when(s)], always, within=True)
         collect([s for s in stated if _is_when(s)], at_events, within=True)
         if both := sorted(always & at_events):
             raise self.wrong(
@@ -289,6 +292,8 @@ class SectionReader(Connecting):
                 yield self._when(
                     statement, lambda body: self._assigned(body, local, variables, at_events)
                 )
+            elif statement not in own:
+                yield from self._equation(statement)
             else:
                 self.execute([statement], local)
         self.frame, self.assigned = frame, {}
@@ -297,6 +302,14 @@ class SectionReader(Connecting):
             if any(v is None for v in elements(local[word])):
                 raise self.wrong(f"the algorithm does not assign '{word}' in every case")
             yield from self.pairs(variables[word], local[word])
+
+    def _is_of_part(self, statement: Statement) -> bool:
+        """Whether an assignment gives a variable of a part or connector its value, once, as an equation does."""
+        build: Any = self.frame.build
+        target = statement.left if isinstance(statement, EquationStatement) else None
+        if not isinstance(target, DottedName) or len(target.words) == 1 or target.words[0] not in build.names:
+            return False
+        return not is_record(as_record(build.member(target.words[0])))
 
     def kept(self, word: str, value: Any) -> Any:
         """A large value of a discrete variable becomes a variable, so that what is made of it stays small."""

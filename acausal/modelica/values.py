@@ -36,6 +36,14 @@ class Record:
         return self.fields.get(word)
 
 
+class Redundant(Record):
+    """Variables of a connector whose type has an ``equalityConstraint``; ``value`` is what expressions see."""
+
+    def __init__(self, value: Any, node: Any, build: Any) -> None:
+        super().__init__({}, node)
+        self.value, self.build = value, build
+
+
 class Bus(Record):
     """An expandable connector.
 
@@ -210,12 +218,16 @@ def is_end(value: Any) -> bool:
     """Whether this part of a connector is connected by itself: a connector, a signal, or several."""
     if is_array(value):
         return any(is_end(v) for v in value)
+    if isinstance(value, Redundant):
+        return False
     signal = isinstance(value, Reference) and isinstance(value.declaration, Input | Output)
     return signal or isinstance(value, Connector | Record)
 
 
 def as_record(value: Any) -> Any:
     """Parts that are records as values, lists of such as an array; others as they are."""
+    if isinstance(value, Redundant):
+        return value.value
     if isinstance(value, Record) and "" in value.fields and value.node is not None:
         return Record({k: as_record(v) for k, v in value.fields.items() if k}, value.node)
     if isinstance(value, np.ndarray):

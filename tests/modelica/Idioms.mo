@@ -157,6 +157,63 @@ package Idioms "What public libraries write; each model has a known derivative"
     connect(machine.plug, load.t);
   end Drive;
 
+  type Reference "of a turning frame"
+    extends Modelica.Units.SI.Angle;
+    function equalityConstraint
+      input Reference a[:], b[:];
+      output Real residue[0];
+    algorithm
+      assert(size(a, 1) == size(b, 1), "unlike");
+    end equalityConstraint;
+  end Reference;
+
+  connector Phasor
+    Real v[2];
+    flow Real i[2];
+    Reference theta[1];
+  end Phasor;
+
+  model Grid
+    Phasor p;
+    parameter Real w = 3;
+  equation
+    Connections.potentialRoot(p.theta);
+    if Connections.isRoot(p.theta) then
+      p.theta[1] = w*time;
+    end if;
+    p.v = {cos(p.theta[1]), sin(p.theta[1])};
+  end Grid;
+
+  model Line
+    Phasor a, b;
+    parameter Real L = 2;
+    Real i[2](each start = 1, each fixed = true);
+  equation
+    Connections.branch(a.theta, b.theta);
+    a.theta = b.theta;
+    a.i = i;
+    L*der(i) + der(a.theta[1])*{-i[2], i[1]} = a.v - b.v;
+  algorithm
+    b.i := -i;
+  end Line;
+
+  model Consumer
+    Phasor p;
+  equation
+    p.v = p.i;
+  end Consumer;
+
+  model Lines "two in parallel, whose loop is cut"
+    Grid grid;
+    Line one, two(L = 4);
+    Consumer consumer;
+  equation
+    connect(grid.p, one.a);
+    connect(grid.p, two.a);
+    connect(one.b, consumer.p);
+    connect(two.b, consumer.p);
+  end Lines;
+
   expandable connector Bus
   end Bus;
 
@@ -297,6 +354,7 @@ package Idioms "What public libraries write; each model has a known derivative"
 
   model All
     Piping piping;
+    Lines lines;
     Drive direct;
     Drive rotating(redeclare package System = Rotating);
     Controlled controlled;

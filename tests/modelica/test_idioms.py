@@ -13,6 +13,11 @@ MOVES = {
     "direct.machine.x[1]": -1 - 1 - 10 * 2,
     "rotating.machine.x[1]": -1 - 1 - 20 * 2,
     "rotating.machine.x[2]": -1 + 1 + 20 * 2,
+    # L*der(i) = v - R*(the sum of both) - w*L*(i, turned)
+    "lines.one.i[1]": (1 - 2 + 3) / 2,
+    "lines.one.i[2]": (0 - 2 - 3) / 2,
+    "lines.two.i[1]": (1 - 2 + 3) / 4,
+    "lines.two.i[2]": (0 - 2 - 3) / 4,
     "piping.pipe.x": 3 + 2 + 2010,
     "piping.weighted.sum": 3 + 4,
     "controlled.mass.m.s": 1,
