@@ -7,7 +7,7 @@ from typing import Any, ClassVar, cast
 
 from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
-from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.connectors import connector
 from acausal.modelica.expandable import expand
 from acausal.modelica.form import note_form
@@ -32,6 +32,7 @@ from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.types import Type, is_component, type_of_declared
 from acausal.modelica.values import ABSENT, Record, as_array, of
 from acausal.modelica.variables import declare
+from acausal.modelica.views import Entry
 from acausal.modeling import Component, Reference, charge
 
 MAX_DEPTH = 60

@@ -11,7 +11,7 @@ from acausal.errors import ModelError
 from acausal.modelica import overconstrained
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.outer import around
-from acausal.modelica.overconstrained import Edge, Node
+from acausal.modelica.overconstrained import Edge, GraphNode
 from acausal.modelica.syntax import (
     Branches,
     Connect,
@@ -22,7 +22,17 @@ from acausal.modelica.syntax import (
     Loop,
     Statement,
 )
-from acausal.modelica.values import Absent, Bus, Member, Record, Redundant, as_record, is_array, is_end, nested
+from acausal.modelica.values import (
+    Absent,
+    Bus,
+    BusMember,
+    Record,
+    Redundant,
+    as_record,
+    is_array,
+    is_end,
+    nested,
+)
 from acausal.modeling import Component, Connector, Eq, Reference, owner_and_name
 
 
@@ -69,7 +79,7 @@ class Connecting(Interpreter):
         """Connect two ends; of those that consist of several each with that of its name."""
         assert self.frame.build is not None
         match left, right:
-            case (Bus() | Member(), _) | (_, Bus() | Member()):
+            case (Bus() | BusMember(), _) | (_, Bus() | BusMember()):
                 return  # what comes of it is connected already
             case Record(), Record():
                 ends = [
@@ -101,7 +111,7 @@ class Connecting(Interpreter):
                 except ModelError as error:
                     raise self.wrong(str(error), len("connect")) from None
 
-    def _relate(self, left: Node, right: Node) -> None:
+    def _relate(self, left: GraphNode, right: GraphNode) -> None:
         """Connect redundant records of two connectors."""
         edge = Edge((left, right), self.at)
         owners = [e.build.component if isinstance(e, Redundant) else e for e in edge.ends]

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
-from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import modify_connector
 from acausal.modelica.modifications import (
@@ -22,6 +22,7 @@ from acausal.modelica.syntax import ClassDefinition
 from acausal.modelica.types import Type, attributes_of, is_overconstrained, type_of_declared
 from acausal.modelica.values import Bus, Record, Redundant, attribute_of, of
 from acausal.modelica.variables import declare
+from acausal.modelica.views import Entry
 from acausal.modeling import Connector, Flow, Potential, Variable
 
 
@@ -100,7 +101,9 @@ def _composite(build: Any, name: str, whole: Type, node: ClassNode, given: list[
             parts = build.parts(path, entry, found, mod, known)
             build.assign(path, entry, parts)
         made = build.made[path]
-        fields[word] = Redundant(made, found.overconstrained, build) if found.overconstrained else made
+        fields[word] = (
+            Redundant(made, found.overconstrained, build) if found.overconstrained else made
+        )
     if plain:
         own = [g for g in given if g.name in plain]
         cls = _class(node, plain, fields, whole.connection)

@@ -1,4 +1,4 @@
-"""Expressions: what they mean in a component, a package or a function."""
+"""Expressions: what their syntax trees mean in a component, a package or a function; text is read in `expressions`."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from acausal.modelica.syntax import (
 )
 from acausal.modelica.values import (
     Absent,
-    Member,
+    BusMember,
     Record,
     Redundant,
     array_of,
@@ -175,7 +175,7 @@ class Evaluator(Operators):
         value = value.value if isinstance(value, Redundant) else value
         if isinstance(value, Absent):
             return value
-        if isinstance(value, Member):
+        if isinstance(value, BusMember):
             index = [self.whole(self.value(s), "a subscript here") for s in subscripts]
             return value.element(index)
         if not is_array(value):
@@ -239,7 +239,7 @@ class Evaluator(Operators):
             value = self.subscripted(value, name.subscripts[i - 1])
         while i < len(name.words):
             inner = of(value, name.words[i])
-            if inner is None or (isinstance(inner, Member) and not self.connecting):
+            if inner is None or (isinstance(inner, BusMember) and not self.connecting):
                 raise self.unknown(name, i, value)
             value = inner
             if i in name.subscripts:

@@ -12,12 +12,12 @@ import numpy as np
 from acausal.modelica.sections import SectionReader
 from acausal.modelica.statements import fed_by_connections
 from acausal.modelica.syntax import FunctionCall
-from acausal.modelica.values import Bus, Member, as_array, elements, nested, type_of
+from acausal.modelica.values import Bus, BusMember, as_array, elements, nested, type_of
 from acausal.modeling import Connector, Input, Output, Reference
 
 
 @dataclass(frozen=True, eq=False)
-class End:
+class BusEnd:
     """Something that is connected to a member of a bus.
 
     Attributes:
@@ -37,7 +37,7 @@ class End:
     @property
     def is_member(self) -> bool:
         """Whether it is a member of a bus, too."""
-        return isinstance(self.value, Member)
+        return isinstance(self.value, BusMember)
 
     def wrong(self, reason: str) -> Exception:
         """The error at the connection."""
@@ -59,13 +59,13 @@ class _Collector(SectionReader):
 
     def _join(self, left: Any, right: Any) -> None:
         for one, other in ((left, right), (right, left)):
-            if isinstance(one, Member) and isinstance(other, Bus):
+            if isinstance(one, BusMember) and isinstance(other, Bus):
                 one = one.bus.nested(one.name)
-            if isinstance(one, Bus) and isinstance(other, Bus | Member):
-                other = other.bus.nested(other.name) if isinstance(other, Member) else other
+            if isinstance(one, Bus) and isinstance(other, Bus | BusMember):
+                other = other.bus.nested(other.name) if isinstance(other, BusMember) else other
                 one.links.append((self.frame.build, other))
-            elif isinstance(one, Member):
-                end = End(as_array(other), self, self.at)
+            elif isinstance(one, BusMember):
+                end = BusEnd(as_array(other), self, self.at)
                 one.bus.ends.setdefault(one.name, []).append(end)
             elif isinstance(one, Reference) and isinstance(other, Reference):
                 self.joined.setdefault(one, []).append(other)
@@ -172,7 +172,7 @@ def _net(bus: Bus, name: str, within: Any = None) -> Iterator[tuple[Bus, str]]:
             todo += [link[1:] for link in links if within in (None, link[0])]
 
 
-def _known(bus: Bus, name: str) -> list[End]:
+def _known(bus: Bus, name: str) -> list[BusEnd]:
     """What is connected to a member anywhere."""
     net = _net(bus, name)
     return [e for one, word in net for e in one.ends.get(word, ()) if not e.is_member]
@@ -201,7 +201,7 @@ def _declare(bus: Bus, name: str) -> None:
     build.made[path] = bus.fields[name] = as_array(build.component._node.declare(path, declared))
 
 
-def _any(bus: Bus, name: str, build: Any, test: Callable[[End], bool]) -> bool:
+def _any(bus: Bus, name: str, build: Any, test: Callable[[BusEnd], bool]) -> bool:
     """Whether something that is connected to a member within a component is so."""
     for one, word in _net(bus, name, build):
         if one.build is not build and _any(one, word, one.build, test):
@@ -211,7 +211,7 @@ def _any(bus: Bus, name: str, build: Any, test: Callable[[End], bool]) -> bool:
     return False
 
 
-def _feeds(end: End) -> bool:
+def _feeds(end: BusEnd) -> bool:
     """Whether a signal is a source for the connections that its reader makes."""
     todo, seen, build = elements(end.value)[:1], list[Any](), end.build
     while todo:  # through signals that are passed on

@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 
 from acausal.modelica.algorithms import REFUSED, Algorithms, Left
-from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.language import SPECIAL
 from acausal.modelica.meanings import Native, Predefined, Value
 from acausal.modelica.operators import MAX_CALLS, Frame
@@ -31,6 +31,7 @@ from acausal.modelica.values import (
     elements,
     with_fields,
 )
+from acausal.modelica.views import Entry
 from acausal.modeling import Component, check_size
 from acausal.netlist import function as known_function
 

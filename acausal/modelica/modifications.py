@@ -194,8 +194,6 @@ def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
             found, rest = frame.find(short.base.words)
             if found is None or rest:
                 raise frame.node.unknown(short.base)
-            if frame.build is not None and short.base.words[0] in frame.build.classes:
-                return found
             known[key] = found
         else:
             known[key] = ClassNode(definition, frame.node, frame.node.tree)

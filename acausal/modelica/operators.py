@@ -61,12 +61,7 @@ class Frame:
         return replace(self, local={**self.local, **local})
 
     def find(self, words: tuple[str, ...]) -> tuple[Any, Any]:
-        """A class or constant by its name; a class that is redeclared for this component counts first."""
-        if self.build is not None and words[0] in self.build.classes:
-            found, rest = self.build.classes[words[0]], words[1:]
-            while rest and (inner := self.node.tree.inside(found, rest[0])) is not None:
-                found, rest = inner, rest[1:]
-            return found, rest
+        """A class or constant by its name, and the words that are left."""
         return self.node.lookup(words)
 
 

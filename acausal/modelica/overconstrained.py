@@ -13,8 +13,7 @@ from acausal.modelica.syntax import FunctionCall
 from acausal.modelica.values import Redundant
 from acausal.modeling import Component
 
-
-Node: TypeAlias = Component | Redundant
+GraphNode: TypeAlias = Component | Redundant
 """A record, or variables of a type that has an ``equalityConstraint``."""
 
 
@@ -22,7 +21,7 @@ Node: TypeAlias = Component | Redundant
 class Edge:
     """Two records that a connection makes equal; where it is cut, their ``equalityConstraint`` is zero instead."""
 
-    ends: tuple[Node, Node]
+    ends: tuple[GraphNode, GraphNode]
     at: int
     cut: bool = False
 
@@ -37,13 +36,13 @@ class ConnectionGraph:
         depth: how far each is from the root of its tree.
     """
 
-    roots: list[Node] = field(default_factory=list[Node])
-    potential: list[tuple[int, Node]] = field(default_factory=list[tuple[int, Node]])
-    branches: list[tuple[Node, Node]] = field(
-        default_factory=list[tuple[Node, Node]]
+    roots: list[GraphNode] = field(default_factory=list[GraphNode])
+    potential: list[tuple[int, GraphNode]] = field(default_factory=list[tuple[int, GraphNode]])
+    branches: list[tuple[GraphNode, GraphNode]] = field(
+        default_factory=list[tuple[GraphNode, GraphNode]]
     )
     edges: list[Edge] = field(default_factory=list[Edge])
-    depth: dict[Node, int] = field(default_factory=dict[Node, int])
+    depth: dict[GraphNode, int] = field(default_factory=dict[GraphNode, int])
 
     def cut(self) -> None:
         """Cut connections until each tree has one root and no loop, and measure how far the records are from it."""
@@ -111,7 +110,7 @@ def _depth(self: Evaluator, call: FunctionCall) -> int:
     return graph_of(self).depth.get(_records(self, call)[0], 0)
 
 
-def _records(self: Evaluator, call: FunctionCall) -> list[Node]:
+def _records(self: Evaluator, call: FunctionCall) -> list[GraphNode]:
     before, self.connecting = self.connecting, True
     count = 2 if call.function.words[-1] == "branch" else 1
     found = [self.value(a) for a in call.arguments[:count]]

@@ -21,7 +21,7 @@ from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.tree import Tree
 
 
-class Package:
+class ModelicaPackage:
     """A package of Modelica text, or the classes of a file: packages, classes and constants are attributes.
 
     Attributes are read when they are asked for; `dir` lists them.
@@ -61,9 +61,9 @@ class Package:
         return f"{self._name}: {', '.join(self.__dir__())}"
 
 
-def package_of(node: ClassNode) -> Package:
+def package_of(node: ClassNode) -> ModelicaPackage:
     """The namespace of a package."""
-    return Package(node.full, {}, node)
+    return ModelicaPackage(node.full, {}, node)
 
 
 def names_in(node: ClassNode) -> list[str]:
@@ -77,7 +77,7 @@ def import_modelica(
     *,
     libraries: Sequence[ModuleType] = (),
     path: Sequence[str | Path] = (),
-) -> Package:
+) -> ModelicaPackage:
     """The classes of a Modelica package, for use in Python: ``lib = ac.import_modelica("Lib"); lib.Parts.Damper(d=2)``.
 
     They are classes of components and connectors like all others: make them, connect them, extend them.
@@ -106,4 +106,4 @@ def import_modelica(
         nodes = tree.add(file / "package.mo" if file.is_dir() else file)
     if len(nodes) == 1 and nodes[0].definition.kind == "package":
         return package_of(nodes[0])
-    return Package(file.name, {node.definition.name: node for node in nodes}, None)
+    return ModelicaPackage(file.name, {node.definition.name: node for node in nodes}, None)

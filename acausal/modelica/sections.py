@@ -307,7 +307,11 @@ class SectionReader(Connecting):
         """Whether an assignment gives a variable of a part or connector its value, once, as an equation does."""
         build: Any = self.frame.build
         target = statement.left if isinstance(statement, EquationStatement) else None
-        if not isinstance(target, DottedName) or len(target.words) == 1 or target.words[0] not in build.names:
+        if (
+            not isinstance(target, DottedName)
+            or len(target.words) == 1
+            or target.words[0] not in build.names
+        ):
             return False
         return not is_record(as_record(build.member(target.words[0])))
 

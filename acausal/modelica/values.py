@@ -50,7 +50,7 @@ class Bus(Record):
     Attributes:
         build, name: of the component that it belongs to, and its name there.
         links: buses that it is connected to, each with the build of the class that states it.
-        ends: member -> what is connected to it, see `acausal.modelica.expandable.End`.
+        ends: member -> what is connected to it, see `acausal.modelica.expandable.BusEnd`.
     """
 
     def __init__(self, build: Any, name: str) -> None:
@@ -60,14 +60,15 @@ class Bus(Record):
         self.ends: dict[str, list[Any]] = {}
 
     def field(self, word: str) -> Any:
-        return self.fields.get(word, Member(self, word))
+        """The member of that name, which may not be there yet."""
+        return self.fields.get(word, BusMember(self, word))
 
     def nested(self, word: str) -> Bus:
         """The member of that name, which is expandable, too."""
         return self.fields.setdefault(word, Bus(self.build, f"{self.name}.{word}"))
 
 
-class Member(Record):
+class BusMember(Record):
     """A member of an expandable connector that is not there yet."""
 
     def __init__(self, bus: Bus, name: str) -> None:
@@ -75,6 +76,7 @@ class Member(Record):
         self.bus, self.name = bus, name
 
     def field(self, word: str) -> Any:
+        """A member of this one, which is expandable, too."""
         return self.bus.nested(self.name).field(word)
 
     def element(self, index: Sequence[int]) -> Any:
@@ -191,7 +193,7 @@ def of(value: Any, word: str) -> Any:
 
 
 def attribute_of(word: str) -> str:
-    """The attribute of a connector for a variable: one whose name every connector has, such as ``rate``, is ``rate_``."""
+    """The attribute of a connector for a variable; of a name that every connector has it is another one: ``rate_``."""
     return f"{word}_" if hasattr(Connector, word) else word
 
 

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from acausal.modelica import statements
-from acausal.modelica.classes import Entry
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import ModifierValues, grouped
 from acausal.modelica.meanings import Literal
@@ -17,6 +16,7 @@ from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Whole
 from acausal.modelica.types import Type, attributes_of
 from acausal.modelica.values import array_of, each, elements, nested, type_of, with_fields
+from acausal.modelica.views import Entry
 from acausal.modeling import (
     Discrete,
     InitialParameter,

@@ -72,12 +72,13 @@ def test_a_package_is_a_namespace_of_classes(folder: Path, tmp_path: Path) -> No
     assert repr(plant) == "Plant: Sub, Law, factor"
     assert (plant.factor, dir(plant.Sub)) == (2, ["Decay"])
     decay = plant.Sub.Decay(k=5.0)
-    assert type(decay) is plant.Sub.Decay and decay._node.modifiers["k"] == 5
+    assert type(decay) is plant.Sub.Decay
+    assert decay._node.modifiers["k"] == 5
     assert repr(ac.import_modelica("Plant", path=[folder]).Sub) == "Plant.Sub: Decay"
     (tmp_path / "parts.mo").write_text("connector C Real p; flow Real f; end C; function g end g;")
     parts = ac.import_modelica(tmp_path / "parts.mo", path=[folder])
     assert issubclass(parts.C, ac.Connector)
-    with pytest.raises(AttributeError, match="parts.mo has no 'D'; known are 'C', 'g'"):
+    with pytest.raises(AttributeError, match=r"parts\.mo has no 'D'; known are 'C', 'g'"):
         parts.D  # noqa: B018
     with pytest.raises(
         ac.ModelicaError, match=r"line 1, column \d+: 'g' is a function, not a model"
