@@ -188,7 +188,7 @@ def _declare(bus: Bus, name: str) -> None:
         declared: Any = type(first)()
     elif isinstance(first, Reference):
         given: Any = {"unit": first.declaration.unit, "shape": np.shape(end) or None}
-        kind = getattr(first.declaration, "kind", "real")
+        kind: Any = getattr(first.declaration, "kind", "real")
         fed = _any(bus, name, build, _feeds) or any(
             one.build is build and word in one.fields for one, word in _net(bus, name, build)
         )

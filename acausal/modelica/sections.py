@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from types import MappingProxyType
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import sympy as sp
@@ -292,7 +292,7 @@ class SectionReader(Connecting):
                 yield self._when(
                     statement, lambda body: self._assigned(body, local, variables, at_events)
                 )
-            elif statement not in own:
+            elif isinstance(statement, EquationStatement) and statement not in own:
                 yield from self._equation(statement)
             else:
                 self.execute([statement], local)
@@ -342,11 +342,11 @@ class SectionReader(Connecting):
 
     def _sampled(self, equation: Eq) -> Eq:
         """An equation within ``when``; its derivatives become variables, which are there at all times."""
-        name, value = equation.lhs.path, equation.rhs
+        target, value = cast(Reference, equation.lhs), equation.rhs
         for i, one in enumerate(sorted(value.atoms(der), key=str), start=1):
-            variable = self.named(f"{name}_rate_{i}", Variable(), "", one)
+            variable = self.named(f"{target.path}_rate_{i}", Variable(), "", one)
             value = value.xreplace({one: variable})
-        return Eq(equation.lhs, value)
+        return Eq(target, value)
 
     def _assigned(
         self,
