@@ -153,7 +153,7 @@ def _filled(number: Any) -> Callable[[Evaluator, FunctionCall], Any]:
         first, sizes = (values[0], values[1:]) if number is None else (number, values)
         shape = [self.whole(n, "a size") for n in sizes]
         check_size(int(np.prod(shape)), "the array")
-        found = np.empty(shape, dtype=object)
+        found = np.empty((*shape, *np.shape(first)), dtype=object)
         found[...] = first
         return found
 
@@ -294,7 +294,29 @@ def _resource(self: Evaluator, call: FunctionCall) -> Any:
     folder = getattr(node, "folder", None)
     if folder is None:
         raise self.wrong(f"there is no folder of a package '{package}'")
-    return str(folder / rest)
+    return f"{folder}/{rest}"
+
+
+def _of_numbers(
+    function: Callable[..., Any], count: int = 1
+) -> Callable[[Evaluator, FunctionCall], Any]:
+    """A function of matrices whose elements are known when the model is built."""
+
+    def applied(self: Evaluator, call: FunctionCall) -> Any:
+        given = [self.known_array(v) for v in self.arguments(call, count)]
+        try:
+            found = function(*given)
+        except np.linalg.LinAlgError as error:
+            raise self.wrong(f"{call.function.text}: {str(error).lower()}") from None
+        return array_of(found.tolist()) if np.ndim(found) else float(found)
+
+    return applied
+
+
+def _eigenvalues(matrix: Any) -> Any:
+    """Real and imaginary parts, as columns."""
+    found = np.linalg.eigvals(matrix)
+    return np.stack([found.real, found.imag], axis=1)
 
 
 SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
@@ -311,6 +333,9 @@ SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "div": _rounding(_div, 2), "mod": _rounding(_mod, 2), "rem": _rounding(_rem, 2),
     "Integer": _rounding(_integer_of, 1), "String": _string, "cardinality": _cardinality, "assert": _assertion,
     "Modelica.Utilities.Files.loadResource": _resource,
+    "Modelica.Math.Matrices.inv": _of_numbers(np.linalg.inv), "Modelica.Math.Matrices.det": _of_numbers(np.linalg.det),
+    "Modelica.Math.Matrices.solve": _of_numbers(np.linalg.solve, 2),
+    "Modelica.Math.Matrices.eigenValues": _of_numbers(_eigenvalues),
     "Connections.isRoot": is_root, "Connections.rooted": is_rooted, "rooted": is_rooted,
 }  # fmt: skip
 """Functions of the language that need more than the values of their arguments."""

@@ -236,6 +236,10 @@ class Operators(Arithmetic):
             return self._number_of(value, what)
         return value
 
+    def known_array(self, value: Any) -> Any:
+        """Numbers of an array that parameters decide when the model is built."""
+        return np.array(each(lambda v: float(self.known(v, "a matrix")), value), dtype=float)
+
     @staticmethod
     def varies(value: Any) -> bool:
         """Whether a value changes with time."""

@@ -352,7 +352,30 @@ package Idioms "What public libraries write; each model has a known derivative"
     weighted.u = {pipe.x, 1};
   end Piping;
 
+  connector Vector
+    Real v[2];
+    flow Real i[2];
+  end Vector;
+
+  model Store
+    Vector c;
+  equation
+    der(c.v) = c.i + {1, 2};
+  end Store;
+
+  model Matrices "of numbers that are known, and arrays of arrays"
+    parameter Real k = 2;
+    parameter Real A[2, 2] = Modelica.Math.Matrices.inv([k, 1; 0, 4]);
+    parameter Real b[2] = Modelica.Math.Matrices.solve([k, 1; 0, 4], {1, 2});
+    parameter Real poles[2, 2] = Modelica.Math.Matrices.eigenValues([0, 1; -9, 0]);
+    Store store(c(v(start = {3, 4}, each fixed = true)));
+    Real x[2, 1](start = transpose(fill({1, 1}, 1)), each fixed = true);
+  equation
+    der(x) = -poles[1, 2]^2*transpose(fill(A*{1, 2} + b, 1));
+  end Matrices;
+
   model All
+    Matrices matrices;
     Piping piping;
     Lines lines;
     Drive direct;

@@ -13,6 +13,10 @@ MOVES = {
     "direct.machine.x[1]": -1 - 1 - 10 * 2,
     "rotating.machine.x[1]": -1 - 1 - 20 * 2,
     "rotating.machine.x[2]": -1 + 1 + 20 * 2,
+    "matrices.store.c.v[1]": 1,
+    "matrices.store.c.v[2]": 2,
+    "matrices.x[1,1]": -9 * (0.25 + 0.25),
+    "matrices.x[2,1]": -9 * (0.5 + 0.5),
     # L*der(i) = v - R*(the sum of both) - w*L*(i, turned)
     "lines.one.i[1]": (1 - 2 + 3) / 2,
     "lines.one.i[2]": (0 - 2 - 3) / 2,
