@@ -160,6 +160,12 @@ def assigned_at_events(build: Any) -> frozenset[str]:
 
 def fed_by_connections(build: Any) -> frozenset[str]:
     """The signals of a class that it connects, and that no equation gives a value."""
+    connected, given = connected_or_given(build)
+    return connected - given
+
+
+def connected_or_given(build: Any) -> tuple[frozenset[str], frozenset[str]]:
+    """The signals of a class that it connects, and the variables to which an equation gives a value."""
     node = build.node
     if "fed" not in node.__dict__:
         connected, given = set[str](), set[str]()
@@ -167,7 +173,7 @@ def fed_by_connections(build: Any) -> frozenset[str]:
             if kind in ("equations", "algorithms"):
                 collect(stated, given, within=True)
                 connected |= ends_of(stated)
-        node.__dict__["fed"] = frozenset(connected - given)
+        node.__dict__["fed"] = frozenset(connected), frozenset(given)
     return node.__dict__["fed"]
 
 

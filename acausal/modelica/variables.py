@@ -109,7 +109,8 @@ def _variable(
         causality = "input" if found.native is Input else "output"
     given: dict[str, Any] = {"unit": unit, "shape": shape or None, "doc": entry.declared.comment}
     fed = mod.value is None and name in statements.fed_by_connections(build)
-    if fed and prefixes.protected and causality == "input":
+    stated = frozenset[str]().union(*statements.connected_or_given(build))
+    if prefixes.protected and causality == "input" and mod.value is None and name in stated:
         causality = "output"  # nothing reaches it from outside: it passes on what is within
     jumps = (
         kind != "real"

@@ -374,7 +374,30 @@ package Idioms "What public libraries write; each model has a known derivative"
     der(x) = -poles[1, 2]^2*transpose(fill(A*{1, 2} + b, 1));
   end Matrices;
 
+  model Voltage "an input that is there or not, and one within that stands for it"
+    parameter Boolean use_v = false;
+    parameter Real v0 = 2;
+    Modelica.Blocks.Interfaces.RealInput v[2] if use_v;
+    Real x[2](each start = 1, each fixed = true);
+  protected
+    Modelica.Blocks.Interfaces.RealInput within[2];
+  equation
+    connect(v, within);
+    if not use_v then
+      within = {v0, 3};
+    end if;
+    der(x) = within;
+  end Voltage;
+
+  model Voltages
+    Voltage own, given(use_v = true);
+    Modelica.Blocks.Sources.Constant c[2](k = {5, 6});
+  equation
+    connect(c.y, given.v);
+  end Voltages;
+
   model All
+    Voltages voltages;
     Matrices matrices;
     Piping piping;
     Lines lines;
