@@ -380,13 +380,13 @@ package Idioms "What public libraries write; each model has a known derivative"
     Modelica.Blocks.Interfaces.RealInput v[2] if use_v;
     Real x[2](each start = 1, each fixed = true);
   protected
-    Modelica.Blocks.Interfaces.RealInput within[2];
+    Modelica.Blocks.Interfaces.RealInput passed[2];
   equation
-    connect(v, within);
+    connect(v, passed);
     if not use_v then
-      within = {v0, 3};
+      passed = {v0, 3};
     end if;
-    der(x) = within;
+    der(x) = passed;
   end Voltage;
 
   model Voltages
