@@ -101,6 +101,7 @@ class Tree:
                             self.roots.setdefault(node.definition.name, node)
                         if isinstance(self.roots[name], ClassNode):
                             return self.roots[name]
+                        del self.roots[name]  # the file has other classes
         if any(name == known.partition(".")[0] for lib in self.libraries for known in lib.packages):
             return Prefix(name)
         return self.roots.get(name)

@@ -103,6 +103,14 @@ def test_a_python_model_has_parts_of_the_text() -> None:
     assert np.asarray(found) == pytest.approx([-1.5])
 
 
+def test_a_file_beside_that_has_other_classes_hides_no_constant(tmp_path: Path) -> None:
+    (tmp_path / "n.mo").write_text("package Other end Other;")
+    (tmp_path / "p.mo").write_text(
+        "package P constant Integer n=2; model M Real x[n]=ones(n); end M; end P;"
+    )
+    assert len(ac.load(tmp_path / "p.mo").x) == 2
+
+
 def test_the_last_model_is_meant_or_one_by_its_name(tmp_path: Path) -> None:
     file = tmp_path / "two.mo"
     file.write_text("package P model A Real a=1; end A; model B Real b=1; end B; end P;")
