@@ -1,6 +1,8 @@
 """What public libraries write: names, sizes, redeclarations, buses."""
 
+import copy
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -44,8 +46,13 @@ MOVES = {
 
 
 @pytest.fixture(scope="module")
-def system() -> ac.System:
-    return ac.compile(ac.load(FILE, "Idioms.All"))
+def model() -> Any:
+    return ac.load(FILE, "Idioms.All")
+
+
+@pytest.fixture(scope="module")
+def system(model: Any) -> ac.System:
+    return ac.compile(model)
 
 
 def test_states_move_as_their_equations_say(system: ac.System) -> None:
@@ -53,6 +60,11 @@ def test_states_move_as_their_equations_say(system: ac.System) -> None:
     found = system.vector_field(0.0, ones, None, system.parameters())
     moves = dict(zip(system.states, map(float, found), strict=True))
     assert moves == pytest.approx(MOVES)
+
+
+def test_a_copy_has_the_same_equations(model: Any, system: ac.System) -> None:
+    again = ac.compile(copy.deepcopy(model))
+    assert [str(e) for e in again.equations] == [str(e) for e in system.equations]
 
 
 def test_names_are_those_of_the_text(system: ac.System) -> None:
