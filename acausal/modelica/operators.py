@@ -253,6 +253,8 @@ class Operators(Arithmetic):
             found = evaluated(value, what, {})
         except ModelError as error:
             raise self.wrong(str(error)) from None
+        except TypeError:
+            raise self.wrong(f"{what} is no finite real number here") from None
         if self.frame.build is not None:
             self.frame.build.decided[str(value)] = found
         return found

@@ -39,6 +39,7 @@ WRONG = {
     "model M parameter Boolean b=3; end M;": "3 is neither true nor false",
     "model M parameter Integer n=1.5; end M;": "'n' is a whole number, not 1.5",
     "model M parameter Integer n; Real x[n]; end M;": "'n' has no value",
+    "model M parameter Real a=0; parameter Integer n=integer(1/a); Real x[n]; end M;": "no finite real number",
     "model M parameter Real a=b; parameter Real b=a; end M;": "a -> b -> a: each depends on the next",
     "model M parameter Real m(min=0)=-1; end M;": "out of range: at least 0",
     "model M parameter Real k=1; equation assert(k>2,\"k is small\"); end M;": "violated: k is small",
