@@ -37,7 +37,11 @@ from .errors import (
 )
 from .fmu import FMU as FMU
 from .initialization import Initialization as Initialization
-from .modelica import ModelicaError as ModelicaError, load as load
+from .modelica import (
+    ModelicaError as ModelicaError,
+    import_modelica as import_modelica,
+    load as load,
+)
 from .modeling import (
     Abs as Abs,
     Budget as Budget,

@@ -7,6 +7,10 @@ It knows declarations and netlists; neither flattening nor JAX. Text is parsed, 
 from acausal.modelica.build import ModelicaModel as ModelicaModel
 from acausal.modelica.grammar import parse as parse
 from acausal.modelica.load import load as load
+from acausal.modelica.package import (
+    ModelicaPackage as ModelicaPackage,
+    import_modelica as import_modelica,
+)
 from acausal.modelica.tokens import (
     KEYWORDS as KEYWORDS,
     ModelicaError as ModelicaError,

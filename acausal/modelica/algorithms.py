@@ -180,7 +180,10 @@ class Algorithms(Overloading):
         if value is otherwise:
             return value
         if value is None or otherwise is None:
-            return None
+            if self.frame.build is not None:
+                return None
+            # nobody may read a variable of a function that a branch leaves undefined: any value will do there
+            return otherwise if value is None else value
         if isinstance(value, np.ndarray) and isinstance(otherwise, np.ndarray):
             return each(lambda a, b: self._merged(holds, a, b), value, otherwise)
         if isinstance(value, Record) and isinstance(otherwise, Record):
@@ -228,25 +231,37 @@ class Algorithms(Overloading):
         """
         word = call.function.text
         self.at = call.at
-        if word != "assert":
+        if self.full_name(call) == "Modelica.Utilities.Streams.print":
+            self.unwatched(call, "this text is not printed")
+        elif word != "assert":
             hint = f"; {REFUSED[word]}" if word in REFUSED else ""
             raise self.wrong(f"{word}(...) is not supported here{hint}", len(word))
-        self.checked(call)
+        else:
+            self.checked(call)
+
+    def full_name(self, call: FunctionCall) -> str:
+        """The full name of a function, where its text is known."""
+        found, rest = self.frame.find(call.function.words)
+        return found.full if isinstance(found, ClassNode) and not rest else call.function.text
+
+    def unwatched(self, call: FunctionCall, what: str) -> None:
+        """Warn once of a statement that does nothing."""
+        node = self.frame.node
+        if call.at not in node.unwatched:
+            node.unwatched.add(call.at)
+            warnings.warn(str(node.wrong(call.at, what)).partition("\n")[0], stacklevel=2)
 
     def checked(self, call: FunctionCall) -> None:
         """An assertion: of parameters it is checked now, of others there is a warning that nothing watches it."""
         arguments = [*call.arguments, *call.named.values()]
         if len(arguments) < 2:
             raise self.wrong("assert takes a condition and a text")
-        holds, node = self.truth(self.value(arguments[0])), self.frame.node
+        holds = self.truth(self.value(arguments[0]))
         level = arguments[2] if len(arguments) > 2 else None
         if isinstance(level, DottedName) and level.words[-1] == "warning":
             return
         if isinstance(holds, sp.Basic) and self.varies(holds):
-            if call.at not in node.unwatched:
-                node.unwatched.add(call.at)
-                found = node.wrong(call.at, "this assertion is not watched while the model runs")
-                warnings.warn(str(found).partition("\n")[0], stacklevel=2)
+            self.unwatched(call, "this assertion is not watched while the model runs")
             return
         if self.known(holds, "this assertion") is False:
             text = (

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, ClassVar
-
-import numpy as np
+from typing import Any, ClassVar, cast
 
 from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
-from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.connectors import connector
+from acausal.modelica.expandable import expand
 from acausal.modelica.form import note_form
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import make_part, modify_part
+from acausal.modelica.meanings import Native
 from acausal.modelica.modifications import (
     Bound,
     Given,
@@ -22,6 +22,7 @@ from acausal.modelica.modifications import (
     fields_of,
     given_by,
     modification,
+    redeclared_class,
 )
 from acausal.modelica.operators import Frame
 from acausal.modelica.outer import inner_of
@@ -31,7 +32,8 @@ from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.types import Type, is_component, type_of_declared
 from acausal.modelica.values import ABSENT, Record, as_array, of
 from acausal.modelica.variables import declare
-from acausal.modeling import Component, Reference, charge, check_size
+from acausal.modelica.views import Entry
+from acausal.modeling import Component, Reference, charge
 
 MAX_DEPTH = 60
 
@@ -44,7 +46,7 @@ class ModelicaModel(Component):
         modifiers: by name, values for parameters, as for every component.
     """
 
-    _class: ClassVar[ClassNode]
+    _class: ClassVar[ClassNode] = cast(ClassNode, None)
     _build: Build
     _units_bind: ClassVar[bool] = False
     """Units are attributes in Modelica, which need not agree."""
@@ -188,8 +190,8 @@ class Build:
             self._refuse(
                 f"parts within parts more than {MAX_DEPTH} deep; does '{definition.name}' contain itself?"
             )
-        view = self.node.view()
         self._redeclare()
+        view = self.node.view()
         native = [
             *(g for g in self.given if g.name not in view.entries and g.name not in self.classes),
             *(
@@ -214,6 +216,7 @@ class Build:
     def complete(self) -> None:
         """Make all members that no expression has asked for, connect them, and read what they state."""
         self._make_all()
+        expand(self)
         self._connect_all()
         self.graph.cut()
         self._finish()
@@ -264,6 +267,7 @@ class Build:
             definition = element if isinstance(element, ClassDefinition) else element.redeclared
             assert isinstance(definition, ClassDefinition)
             self.classes.setdefault(name, redeclared_class(definition, self.frame(node)))
+        self.node = self.node.with_classes(self.classes)
 
     def member(self, name: str) -> Any:
         """A component, which is made if it is needed for the first time: its value, references, part or connector.
@@ -317,19 +321,25 @@ class Build:
         if found.predefined:
             declare(self, name, entry, found, mod, sizes)
         else:
-            value = self.parts(name, entry, found, mod, [self.size(s, f) for s, f in sizes])
+            known = [Interpreter(f).size(s) for s, f in sizes]
+            value = self.parts(name, entry, found, mod, known)
             self.assign(name, entry, value)
 
     def assign(self, name: str, entry: Entry, value: Any) -> None:
-        """Give the component an attribute; what belongs to a connector, or consists of several, is kept here."""
+        """Give the component an attribute.
+
+        What belongs to a connector, consists of several, or has a name that Python cannot use is kept here.
+        """
         try:
-            if "." in name:
-                add: Any = (
-                    self.component._add_all if isinstance(value, list) else self.component._add
-                )
-                self.made[name] = value if _is_composite(value) else as_array(add(name, value))
-            elif _is_composite(value):
+            own = hasattr(type(self.component), name) and name not in self.component._declared
+            if _is_composite(value):
                 self.made[name] = value
+            elif "." in name or name[0] == "'" or own:
+                many = isinstance(value, list)
+                add: Any = self.component._add_all if many else self.component._add
+                self.made[name] = as_array(add(name, value))
+                if own:  # reading a declaration has put it where a method was
+                    vars(self.component).pop(name, None)
             else:
                 self.component._claim(name)
                 setattr(self.component, name, value)
@@ -337,19 +347,6 @@ class Build:
             raise
         except ModelError as error:
             raise entry.wrong(str(error)) from None
-
-    def size(self, expression: Any, frame: Frame) -> int:
-        """The size of an array."""
-        interpreter = Interpreter(frame)
-        interpreter.at = expression.at
-        value = interpreter.value(expression)
-        if isinstance(value, np.ndarray):  # of a type: a value for each of its values
-            return len(value)
-        number = interpreter.whole(value, "a size")
-        if number < 0:
-            raise interpreter.wrong(f"a size is not negative; this is {number}")
-        check_size(number, "the array")
-        return number
 
     # -- parts -------------------------------------------------------------------------------------------
 
@@ -397,10 +394,11 @@ class Build:
         return part
 
     def _instead(self, entry: Entry, found: Type, inner: list[Given]) -> ClassNode | None:
-        """The text of a library's class, where that has a replaceable member which the class here lacks."""
-        if all(g.redeclared is None for g in inner):
-            return None
-        return entry.node.tree.text(found.full)
+        """The text of a library's class, where it is given a member which the class here lacks."""
+        tree = entry.node.tree
+        if any(g.redeclared is not None for g in inner):
+            return tree.text(found.full)
+        return tree.text_with(Native(found.native, found.full), [g.name for g in inner])
 
     # -- the record of the component -----------------------------------------------------------------------
 
@@ -415,24 +413,6 @@ class Build:
         node.children = dict(sorted(node.children.items(), key=lambda item: place(item[0])))
         own = sorted(node.own_declarations.items(), key=lambda item: place(item[0]))
         node.own_declarations = dict(own)
-
-
-def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
-    """The class that a redeclaration states; the same for the same text."""
-    key = f"redeclared at {definition.at} as {definition.name}"
-    known = frame.node.children
-    if key not in known:
-        short = definition.short
-        if short is not None and not short.modifier.arguments and not short.subscripts:
-            found, rest = frame.find(short.base.words)
-            if found is None or rest:
-                raise frame.node.unknown(short.base)
-            if frame.build is not None and short.base.words[0] in frame.build.classes:
-                return found
-            known[key] = found
-        else:
-            known[key] = ClassNode(definition, frame.node, frame.node.tree)
-    return known[key]
 
 
 def _is_composite(value: Any) -> bool:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -15,75 +15,13 @@ from acausal.modelica.syntax import (
     ClassDefinition,
     Declared,
     DottedName,
-    Expression,
     Extends,
     Import,
     ModificationArgument,
-    Statement,
 )
 from acausal.modelica.tokens import PREDEFINED, ModelicaError, Source, read_source
+from acausal.modelica.views import ClassView, Entry
 from acausal.netlist import find_class
-
-
-@dataclass(eq=False)
-class Entry:
-    """A component of a class, with the modifiers that it gets on the way from there.
-
-    Attributes:
-        node: the class that declares it, where its expressions are looked up.
-        modifiers: of `extends` and short classes, the outermost first, each with the class that states it.
-    """
-
-    declared: Declared
-    node: ClassNode
-    modifiers: list[tuple[ModificationArgument, ClassNode]]
-
-    @property
-    def stated(self) -> tuple[Expression | None, ClassNode]:
-        """The value that it is given, by the outermost modifier that has one, and the class that states it."""
-        for argument, node in self.modifiers:
-            if argument.name == self.declared.name and argument.modifier.value is not None:
-                return argument.modifier.value, node
-        return self.declared.modifier.value, self.node
-
-    @property
-    def started(self) -> tuple[Expression | None, ClassNode]:
-        """What it is given, or where it is given nothing its start."""
-        if self.stated[0] is not None:
-            return self.stated
-        own = self.declared.modifier.arguments
-        return next((a.modifier.value for a in own if a.name == "start"), None), self.node
-
-    def wrong(self, reason: str) -> ModelicaError:
-        """The error at its declaration."""
-        return self.node.wrong(self.declared.at, reason, len(self.declared.name))
-
-
-@dataclass(eq=False)
-class ClassView:
-    """A class together with what it inherits.
-
-    Attributes:
-        natives: bases of libraries, with modifiers.
-        predefined: what a type is made of; ``attributes`` its modifiers, the outermost first.
-        sections: kind (``equations``, ``algorithms``, ...), statements and the class that states them.
-        classes: replaceable classes that are redeclared on the way.
-        subscripts: of types that are arrays.
-    """
-
-    natives: list[tuple[Native, list[tuple[ModificationArgument, ClassNode]]]] = field(
-        default_factory=list
-    )
-    predefined: Predefined | None = None
-    attributes: list[tuple[ModificationArgument, ClassNode]] = field(default_factory=list)
-    entries: dict[str, Entry] = field(default_factory=dict)
-    sections: list[tuple[str, list[Statement], ClassNode]] = field(default_factory=list)
-    classes: dict[str, tuple[ModificationArgument | ClassDefinition, ClassNode]] = field(
-        default_factory=dict
-    )
-    subscripts: list[tuple[Any, ClassNode]] = field(default_factory=list)
-    causality: str = ""
-    connection: str = ""
 
 
 class ClassNode:
@@ -154,9 +92,11 @@ class ClassNode:
 
     def _own(self, name: str) -> Any:
         if self.definition.kind == "package":
-            native = self.tree.native(f"{self.full}.{name}")
-            if native is not None:
-                return native
+            full = f"{self.full}.{name}"
+            found = self.tree.native(full) or self.text(name)
+            if found is None and self.tree.has_package(full):
+                return Prefix(full)  # another version of the library has its text
+            return found
         return self.text(name)
 
     def text(self, name: str) -> ClassNode | None:
@@ -187,10 +127,47 @@ class ClassNode:
                 base = self.base(extends, quiet=True)
                 found = self.tree.inside(base, name)
                 if found is not None:
-                    return found
+                    return self._inherited_class(name, found)
         finally:
             self._searching.discard(name)
         return None
+
+    def with_classes(self, classes: Mapping[str, Any]) -> ClassNode:
+        """The same class with other classes in the place of replaceable ones; the same for the same classes."""
+        if not classes:
+            return self
+        key = f"with {', '.join(f'{name} at {id(cls)}' for name, cls in classes.items())}"
+        if key not in self.children:
+            found = ClassNode(self.definition, self.parent, self.tree, self.folder)
+            found.children |= classes
+            found.redeclares = True
+            self.children[key] = found
+        return self.children[key]
+
+    @cached_property
+    def redeclares(self) -> bool:
+        """Whether names mean something else here than in its bases, so that what it inherits is looked up here."""
+        arguments = [a for clause in self.extends for a in clause.modifier.arguments]
+        classes = any(isinstance(a.redeclared, ClassDefinition) for a in arguments)
+        own = any(element.prefixes.redeclare for element in self._elements.values())
+        return classes or own or self.definition.kind == "package"
+
+    def _scope(self, base: ClassNode) -> ClassNode:
+        """Where names in what is inherited from a base are looked up."""
+        if not self.redeclares:
+            return base
+        return self.children.setdefault(f"scope of {id(base)}", Inherited(base, self))
+
+    def _inherited_class(self, name: str, found: Any) -> Any:
+        """A class that a base defines, as one of this class."""
+        parent = found.parent if isinstance(found, ClassNode) else None
+        if not isinstance(parent, ClassNode) or not self.redeclares:
+            return found
+        scope = self._scope(parent)
+        known = self.children
+        return known.setdefault(
+            f"inherited {name}", ClassNode(found.definition, scope, self.tree, found.folder)
+        )
 
     @cached_property
     def extends(self) -> list[Extends]:
@@ -206,9 +183,10 @@ class ClassNode:
         if self.definition.extends_inherited and extends is self.extends[0]:
             above = self.parent
             for clause in above.extends if isinstance(above, ClassNode) else ():
-                found = self.tree.inside(above.base(clause), self.definition.name)  # pyright: ignore[reportOptionalMemberAccess, reportAttributeAccessIssue]
+                assert isinstance(above, ClassNode)
+                found = self.tree.inside(above.base(clause), self.definition.name)
                 if found is not None:
-                    return found
+                    return above._inherited_class(f"{self.definition.name} of the base", found)
         found, rest = self.lookup(
             extends.base.words, skip=self.definition.name if self.definition.short else ""
         )
@@ -263,7 +241,7 @@ class ClassNode:
                 if found is None:
                     owner, _, last = clause.names[word].rpartition(".")
                     package = self.tree.resolve(owner) if owner else None
-                    if isinstance(package, ClassNode) and last in package.view().entries:
+                    if isinstance(package, ClassNode) and package.has_value(last):
                         return Imported(package, last)
                     raise self.wrong(clause.at, f"there is no '{clause.names[word]}'; {PATH_HINT}")
                 return found
@@ -273,15 +251,15 @@ class ClassNode:
                 found = self.tree.inside(package, word)
                 if isinstance(found, Prefix) and not self.tree.has_package(found.full):
                     found = None
-                if (
-                    found is None
-                    and isinstance(package, ClassNode)
-                    and word in package.view().entries
-                ):
+                if found is None and isinstance(package, ClassNode) and package.has_value(word):
                     found = Imported(package, word)
                 if found is not None:
                     return found
         return None
+
+    def has_value(self, name: str) -> bool:
+        """Whether this is a constant of a package, or a value of an enumeration."""
+        return name in self.view().entries or name in (self.definition.literals or ())
 
     def unknown(self, name: DottedName, what: str = "class") -> ModelicaError:
         """The error for a name that means nothing here."""
@@ -357,7 +335,7 @@ class ClassNode:
                 view.predefined = base
                 view.attributes = [*arguments, *view.attributes]
                 return
-            case Native() if (text := self._with_all(base)) is not None:
+            case Native() if (text := self._with_all(base, arguments)) is not None:
                 base = text
             case Native():
                 view.natives.append((base, arguments))
@@ -374,7 +352,7 @@ class ClassNode:
                     f"'{clause.base.text}' is not a class to extend",
                     len(clause.base.text),
                 )
-        inherited = base.view()
+        inherited = base.view() if not self.redeclares else base.view().within(self._scope)
         for native, given in inherited.natives:
             view.natives.append((native, [*self._for_native(arguments, inherited), *given]))
         if inherited.predefined is not None:
@@ -399,12 +377,17 @@ class ClassNode:
                 raise self.wrong(argument.at, reason, len(argument.name))
         view.sections += inherited.sections
 
-    def _with_all(self, base: Native) -> ClassNode | None:
-        """The text of a library's interface that has members which the class here lacks, where there is one."""
-        text = self.tree.text(base.name) if ".Interfaces." in base.name else None
-        declared = getattr(base.cls, "_declared", {})
-        lacks = text is not None and any(n not in declared for n in text.view().entries)
-        return text if lacks else None
+    def _with_all(
+        self, base: Native, arguments: list[tuple[ModificationArgument, ClassNode]]
+    ) -> ClassNode | None:
+        """The text of a library's class that has members which the class here lacks, where there is one.
+
+        Of an interface all members count, of others those that are modified.
+        """
+        if ".Interfaces." not in base.name:
+            return self.tree.text_with(base, [a.name.partition(".")[0] for a, _ in arguments])
+        text = self.tree.text(base.name)
+        return self.tree.text_with(base, text.view().entries) if text else None
 
     @staticmethod
     def _for_native(
@@ -435,6 +418,22 @@ class ClassNode:
         stated = order.read_text(encoding="utf-8").split("\n") if order.is_file() else []
         first = [name.strip() for name in stated if name.strip() in found]
         return list(dict.fromkeys((*first, *found)))
+
+
+class Inherited(ClassNode):
+    """A class as the place of what another one inherits from it: names mean there what they mean in the heir."""
+
+    def __init__(self, base: ClassNode, heir: ClassNode) -> None:
+        super().__init__(base.definition, base.parent, base.tree, base.folder)
+        self.heir = heir
+
+    def member(self, name: str) -> Any:
+        """A class of the heir."""
+        return self.heir.member(name)
+
+    def view(self) -> ClassView:
+        """The heir with what it inherits."""
+        return self.heir.view()
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from acausal.errors import ModelError
 from acausal.modelica import overconstrained
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.outer import around
-from acausal.modelica.overconstrained import Edge
+from acausal.modelica.overconstrained import Edge, GraphNode
 from acausal.modelica.syntax import (
     Branches,
     Connect,
@@ -22,7 +22,17 @@ from acausal.modelica.syntax import (
     Loop,
     Statement,
 )
-from acausal.modelica.values import Absent, Record, as_record, is_array, is_end, nested
+from acausal.modelica.values import (
+    Absent,
+    Bus,
+    BusMember,
+    Record,
+    Redundant,
+    as_record,
+    is_array,
+    is_end,
+    nested,
+)
 from acausal.modeling import Component, Connector, Eq, Reference, owner_and_name
 
 
@@ -46,9 +56,13 @@ class Connecting(Interpreter):
                 case Branches() if _connects([s for _, body in statement.branches for s in body]):
                     self.connections(self._chosen(statement))
                 case Do() if is_of_graph(statement):
-                    overconstrained.note(self, statement.call)
+                    self.noted(statement.call)
                 case _:
                     pass
+
+    def noted(self, call: FunctionCall) -> None:
+        """What is stated about the graph of connections."""
+        overconstrained.note(self, call)
 
     def _connect(self, statement: Connect) -> None:
         self.connecting = True
@@ -65,6 +79,8 @@ class Connecting(Interpreter):
         """Connect two ends; of those that consist of several each with that of its name."""
         assert self.frame.build is not None
         match left, right:
+            case (Bus() | BusMember(), _) | (_, Bus() | BusMember()):
+                return  # what comes of it is connected already
             case Record(), Record():
                 ends = [
                     {k: nested(v) for k, v in r.fields.items() if is_end(v)} for r in (left, right)
@@ -75,11 +91,15 @@ class Connecting(Interpreter):
                 for name, end in ends[0].items():
                     self._join(end, ends[1][name])
                 for name, record in left.fields.items():
-                    if isinstance(record, Component):
+                    if isinstance(record, Component | Redundant):
                         self._relate(record, right.fields[name])
             case list(), list() if len(left) == len(right):
                 for a, b in zip(left, right, strict=True):
                     self._join(a, b)
+            case (Connector() | Reference(), Connector() | Reference()) if owner_and_name(
+                left
+            ) == owner_and_name(right):
+                return  # one end
             case _:
                 try:
                     owners = [
@@ -91,10 +111,11 @@ class Connecting(Interpreter):
                 except ModelError as error:
                     raise self.wrong(str(error), len("connect")) from None
 
-    def _relate(self, left: Component, right: Component) -> None:
+    def _relate(self, left: GraphNode, right: GraphNode) -> None:
         """Connect redundant records of two connectors."""
         edge = Edge((left, right), self.at)
-        around(self.frame.build, left._node, right._node).edges.append(edge)
+        owners = [e.build.component if isinstance(e, Redundant) else e for e in edge.ends]
+        around(self.frame.build, *(e._node for e in owners)).edges.append(edge)
         overconstrained.graph_of(self).edges.append(edge)
 
     def related(self, edge: Edge) -> Iterator[Eq]:
@@ -104,7 +125,9 @@ class Connecting(Interpreter):
         if not edge.cut:
             yield from self.pairs(*ends)
             return
-        constraint = ends[0].node.member("equalityConstraint")
+        left = edge.ends[0]
+        node = left.node if isinstance(left, Redundant) else ends[0].node
+        constraint = node.member("equalityConstraint")
         name = DottedName(("equalityConstraint",), {}, edge.at)
         residual = self.inlined(
             constraint, FunctionCall(name, [LiteralConstant(e, edge.at) for e in ends], {}, edge.at)

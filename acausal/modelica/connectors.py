@@ -6,14 +6,23 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
-from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import modify_connector
-from acausal.modelica.modifications import Bound, Given, Modification, given_by, modification
+from acausal.modelica.modifications import (
+    Bound,
+    Given,
+    Modification,
+    given_by,
+    modification,
+    redeclared_class,
+)
 from acausal.modelica.operators import Frame
-from acausal.modelica.types import Type, attributes_of, type_of_declared
-from acausal.modelica.values import Record, as_array
+from acausal.modelica.syntax import ClassDefinition
+from acausal.modelica.types import Type, attributes_of, is_overconstrained, type_of_declared
+from acausal.modelica.values import Bus, Record, Redundant, attribute_of, of
 from acausal.modelica.variables import declare
+from acausal.modelica.views import Entry
 from acausal.modeling import Connector, Flow, Potential, Variable
 
 
@@ -23,10 +32,34 @@ def connector(build: Any, name: str, found: Type, inner: list[Given]) -> Any:
     Their names are paths, such as ``plug.pin[1]``, so that each belongs to the component itself.
     """
     node = found.node
+    if node is not None:
+        classes = [g for g in inner if isinstance(g.redeclared, ClassDefinition)]
+        node = node.with_classes({g.name: redeclared_class(g.redeclared, g.frame) for g in classes})
+        inner = [g for g in inner if g not in classes]
+    if node is not None and is_expandable(node):
+        return bus(build, name, node)
     if node is not None and (node.definition.kind != "connector" or _is_composite(node)):
         return _composite(build, name, found, node, inner)
     build.later.append(lambda: modify_connector(build, name, inner))
     return found.native() if node is None else connector_class(node)()
+
+
+def is_expandable(node: ClassNode) -> bool:
+    """Whether a connector, or one that it extends, is expandable."""
+    bases = [node.base(clause) for clause in node.extends]
+    return node.definition.expandable or any(
+        isinstance(base, ClassNode) and is_expandable(base) for base in bases
+    )
+
+
+def bus(build: Any, name: str, node: ClassNode) -> Bus:
+    """An expandable connector; of its declared members only those are there already that are expandable, too."""
+    found = Bus(build, name)
+    for word, entry in node.view().entries.items():
+        inner = _type(entry).node
+        if inner is not None and not entry.declared.subscripts and is_expandable(inner):
+            found.fields[word] = bus(build, f"{name}.{word}", inner)
+    return found
 
 
 def _is_composite(node: ClassNode) -> bool:
@@ -38,7 +71,8 @@ def _is_composite(node: ClassNode) -> bool:
 def _is_plain(entry: Entry) -> bool:
     prefixes, found = entry.declared.prefixes, _type(entry)
     causal = prefixes.causality or found.causality or prefixes.variability
-    return found.predefined == "Real" and found.native is None and not causal
+    plain = found.predefined == "Real" and found.native is None and not causal
+    return plain and found.overconstrained is None
 
 
 def _type(entry: Entry) -> Type:
@@ -58,19 +92,24 @@ def _composite(build: Any, name: str, whole: Type, node: ClassNode, given: list[
         sizes = [(s, frame) for s in entry.declared.subscripts]
         sizes += [(s, Frame(n)) for s, n in found.subscripts]
         if found.predefined:
-            if not (found.causality or entry.declared.prefixes.variability or found.native):
+            known = found.causality or entry.declared.prefixes.variability or found.native
+            if not (known or found.overconstrained):
                 raise entry.wrong(f"a {found.predefined} in a connector is an input or output")
             declare(build, path, entry, found, mod, sizes)
         else:
-            parts = build.parts(path, entry, found, mod, [build.size(*s) for s in sizes])
+            known = [Interpreter(f).size(s) for s, f in sizes]
+            parts = build.parts(path, entry, found, mod, known)
             build.assign(path, entry, parts)
-        fields[word] = build.made[path]
+        made = build.made[path]
+        fields[word] = (
+            Redundant(made, found.overconstrained, build) if found.overconstrained else made
+        )
     if plain:
         own = [g for g in given if g.name in plain]
         cls = _class(node, plain, fields, whole.connection)
         build.later.append(lambda: modify_connector(build, name, own))
         fields[""] = build.component._node.declare(name, cls())
-        fields |= {n: as_array(getattr(fields[""], n)) for n in plain}
+        fields |= {n: of(fields[""], n) for n in plain}
     if not whole.connection:
         _check(node)
     is_value = node.definition.kind == "record" or node.view().causality
@@ -92,11 +131,6 @@ def _part_of(whole: Type, entry: Entry, mod: Modification, frame: Frame) -> Type
     return replace(found, causality=causality, connection="" if causality else connection)
 
 
-def is_overconstrained(node: ClassNode) -> bool:
-    """Whether connections of this record in a loop have more equations than it has independent values."""
-    return node.member("equalityConstraint") is not None
-
-
 def connector_class(node: ClassNode) -> type[Connector]:
     """The Python class of a connector.
 
@@ -115,9 +149,13 @@ def _class(
     """The class of the potentials and flows of a connector; ``known`` has values of its parameters."""
     bases = tuple(n.cls for n, _ in node.view().natives) or (Connector,)
     declared = {name: _variable(entry, known, connection) for name, entry in entries.items()}
-    if node.definition.expandable:
-        raise node.refused("expandable connectors are not supported")
-    return type(node.definition.name, bases, {**declared, "__module__": __name__})
+    own = {attribute_of(name): v for name, v in declared.items()}
+    cls: Any = type(node.definition.name, bases, {**own, "__module__": __name__})
+    for name, variable in declared.items():
+        variable.name = name
+    stated = cls.declarations.items()
+    cls.declarations = {v.name + "".join(n.partition("[")[1:]): v for n, v in stated}
+    return cls
 
 
 def _check(node: ClassNode) -> None:
@@ -162,7 +200,7 @@ def _variable(entry: Entry, known: dict[str, Any], connection: str = "") -> Vari
         *((s, frame) for s in declared.subscripts),
         *((s, Frame(n)) for s, n in found.subscripts),
     ]
-    shape = tuple(Interpreter(f).whole(Interpreter(f).value(s), "a size") for s, f in sizes)
+    shape = tuple(Interpreter(f).size(s) for s, f in sizes)
     stated = attributes_of(found, mod.inner)
     unit = stated.get("unit", "")
     kind = Flow if "flow" in (connection, prefixes.connection) else Potential

@@ -1,4 +1,4 @@
-"""Expressions: what they mean in a component, a package or a function."""
+"""Expressions: what their syntax trees mean in a component, a package or a function; text is read in `expressions`."""
 
 from __future__ import annotations
 
@@ -32,7 +32,9 @@ from acausal.modelica.syntax import (
 )
 from acausal.modelica.values import (
     Absent,
+    BusMember,
     Record,
+    Redundant,
     array_of,
     as_array,
     as_record,
@@ -67,9 +69,10 @@ class Evaluator(Operators):
         self.at = expression.at
         try:
             return self._value(expression)
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             self.at = expression.at
-            raise self.wrong(str(error)) from None
+            deep = "this leads to conditions within conditions that are too deep"
+            raise self.wrong(deep if isinstance(error, RecursionError) else str(error)) from None
         finally:
             self.at = before
 
@@ -169,8 +172,12 @@ class Evaluator(Operators):
 
     def subscripted(self, value: Any, subscripts: list[Expression]) -> Any:
         """Some elements of an array, or of a list of parts."""
+        value = value.value if isinstance(value, Redundant) else value
         if isinstance(value, Absent):
             return value
+        if isinstance(value, BusMember):
+            index = [self.whole(self.value(s), "a subscript here") for s in subscripts]
+            return value.element(index)
         if not is_array(value):
             raise self.wrong("this is not an array; it takes no subscripts")
         shape = np.shape(_shape(value))
@@ -232,7 +239,7 @@ class Evaluator(Operators):
             value = self.subscripted(value, name.subscripts[i - 1])
         while i < len(name.words):
             inner = of(value, name.words[i])
-            if inner is None:
+            if inner is None or (isinstance(inner, BusMember) and not self.connecting):
                 raise self.unknown(name, i, value)
             value = inner
             if i in name.subscripts:
@@ -271,9 +278,7 @@ class Evaluator(Operators):
             case Predefined("Boolean"):
                 return array_of([False, True]), i
             case ClassNode() if rest:
-                if found.definition.literals is not None and rest[0] in found.definition.literals:
-                    return literal(found, rest[0]), i + 1
-                if rest[0] in found.view().entries:
+                if found.has_value(rest[0]):
                     return self.constant(found, rest[0]), i + 1
             case None:
                 node: Any = frame.node
@@ -318,7 +323,9 @@ class Evaluator(Operators):
         )
 
     def constant(self, node: ClassNode, name: str) -> Any:
-        """A constant of a package."""
+        """A constant of a package, or a value of an enumeration."""
+        if name in (node.definition.literals or ()):
+            return literal(node, name)
         known: dict[str, Any] = node.__dict__.setdefault("constants", {})
         if name not in known:
             entry = node.view().entries[name]

@@ -1,4 +1,4 @@
-"""The grammar of expressions and modifiers, by recursive descent."""
+"""The grammar of expressions: their text becomes a syntax tree, which `acausal.modelica.evaluate` gives a meaning."""
 
 from __future__ import annotations
 

@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import sympy as sp
 
 from acausal.modelica.algorithms import REFUSED, Algorithms, Left
-from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.language import SPECIAL
 from acausal.modelica.meanings import Native, Predefined, Value
 from acausal.modelica.operators import MAX_CALLS, Frame
 from acausal.modelica.syntax import (
+    DottedName,
     Expression,
     FunctionCall,
     LiteralConstant,
@@ -29,7 +31,8 @@ from acausal.modelica.values import (
     elements,
     with_fields,
 )
-from acausal.modeling import check_size
+from acausal.modelica.views import Entry
+from acausal.modeling import Component, check_size
 from acausal.netlist import function as known_function
 
 TEXTS: dict[str, Callable[..., Any]] = {
@@ -53,9 +56,17 @@ class Interpreter(Algorithms):
             return special(self, call)
         if name in REFUSED and name not in self.frame.local:
             raise self.wrong(f"{name}(...) is not supported; {REFUSED[name]}", len(name))
-        found, rest = self.frame.find(call.function.words)
+        found, rest = self.frame.find(words)
         if rest:
             found = None
+        if found is None and len(words) > 1:
+            found = self._of_part(words)
+        if isinstance(found, ClassNode) and found.definition.short:
+            base = found.base(found.extends[0])
+            found = base if isinstance(base, Value) else found
+        special = SPECIAL.get(found.full) if isinstance(found, ClassNode) else None
+        if special is not None:
+            return special(self, call)
         if isinstance(found, ClassNode) and found.definition.kind == "function":
             results = self.inlined(found, call)
             return results[0]
@@ -84,6 +95,17 @@ class Interpreter(Algorithms):
             raise self.wrong(f"'{name}' is not a function", len(name))
         self.at = call.function.at
         raise self.frame.node.unknown(call.function, "function")
+
+    def _of_part(self, words: tuple[str, ...]) -> Any:
+        """A function of the class of a part, such as ``oil.density``."""
+        build = self.frame.build
+        if build is None or words[0] not in build.names:
+            return None
+        before, self.connecting = self.connecting, True
+        part = self.name(DottedName(words[:-1], {}, self.at))
+        self.connecting = before
+        inner = part.__dict__.get("_build") if isinstance(part, Component) else None
+        return None if inner is None else inner.node.member(words[-1])
 
     def _of_library(
         self, function: Callable[..., Any], name: str, given: list[Any], named: dict[str, Any]
@@ -126,6 +148,18 @@ class Interpreter(Algorithms):
             frame = Frame(owner, None, fields)
             fields[name] = None if expression is None else self.elsewhere(frame).value(expression)
         return Record(fields, node)
+
+    def size(self, expression: Expression) -> int:
+        """The size of an array: a number, or the number of values of a type."""
+        value = self.value(expression)
+        self.at = expression.at
+        if isinstance(value, np.ndarray):
+            return len(value)
+        number = self.whole(value, "a size")
+        if number < 0:
+            raise self.wrong(f"a size is not negative; this is {number}")
+        check_size(number, "the array")
+        return number
 
     # -- functions of the user ---------------------------------------------------------------------------
 
@@ -175,17 +209,16 @@ class Interpreter(Algorithms):
                 local[name] = as_record(values[name])
                 continue
             expression = entry.declared.modifier.value
+            there = inner.elsewhere(replace(frame, node=entry.node))
             if expression is not None:
-                local[name] = inner.elsewhere(
-                    Frame(entry.node, None, local, frame.events, frame.calls)
-                ).value(expression)
+                local[name] = there.value(expression)
             elif name in inputs:
                 raise self.wrong(f"{definition.name} needs '{name}'", length)
             else:
-                local[name] = inner.empty(entry)
+                local[name] = there.empty(entry)
         for kind, statements, owner in view.sections:
             if kind == "algorithms":
-                inner.frame = Frame(owner, None, local, frame.events, frame.calls)
+                inner.frame = replace(frame, node=owner)
                 with suppress(Left):
                     inner.execute(statements, local)
         self.operations, self.statements = inner.operations, inner.statements
@@ -224,10 +257,9 @@ class Interpreter(Algorithms):
             given = {a.name: a.modifier.value for a in stated if a.name in found.view().entries}
             named = {k: self.value(v) for k, v in given.items() if v is not None}
             return self.record_of(found, [], named)
-        sizes = [self.value(s) for s in subscripts if not isinstance(s, Whole)]
-        if not sizes or len(sizes) < len(subscripts):
+        shape = [self.size(s) for s in subscripts if not isinstance(s, Whole)]
+        if not shape or len(shape) < len(subscripts):
             return None
-        shape = [self.whole(n, "a size") for n in sizes]
         check_size(int(np.prod(shape)), "the array")
         return np.empty(shape, dtype=object)
 

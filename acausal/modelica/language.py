@@ -153,7 +153,7 @@ def _filled(number: Any) -> Callable[[Evaluator, FunctionCall], Any]:
         first, sizes = (values[0], values[1:]) if number is None else (number, values)
         shape = [self.whole(n, "a size") for n in sizes]
         check_size(int(np.prod(shape)), "the array")
-        found = np.empty(shape, dtype=object)
+        found = np.empty((*shape, *np.shape(first)), dtype=object)
         found[...] = first
         return found
 
@@ -282,6 +282,43 @@ def _string(self: Evaluator, call: FunctionCall) -> Any:
     return str(value)
 
 
+def _resource(self: Evaluator, call: FunctionCall) -> Any:
+    """The path of a file; one within a package, ``modelica://Package/file``, is relative to its folder."""
+    (text,) = self.arguments(call, 1)
+    if not isinstance(text, str):
+        raise self.wrong("the name of a file is a text")
+    package, _, rest = text.removeprefix("modelica://").partition("/")
+    if not text.startswith("modelica://"):
+        return text
+    node = self.frame.node.tree.resolve(package)
+    folder = getattr(node, "folder", None)
+    if folder is None:
+        raise self.wrong(f"there is no folder of a package '{package}'")
+    return f"{folder}/{rest}"
+
+
+def _of_numbers(
+    function: Callable[..., Any], count: int = 1
+) -> Callable[[Evaluator, FunctionCall], Any]:
+    """A function of matrices whose elements are known when the model is built."""
+
+    def applied(self: Evaluator, call: FunctionCall) -> Any:
+        given = [self.known_array(v) for v in self.arguments(call, count)]
+        try:
+            found = function(*given)
+        except np.linalg.LinAlgError as error:
+            raise self.wrong(f"{call.function.text}: {str(error).lower()}") from None
+        return array_of(found.tolist()) if np.ndim(found) else float(found)
+
+    return applied
+
+
+def _eigenvalues(matrix: Any) -> Any:
+    """Real and imaginary parts, as columns."""
+    found = np.linalg.eigvals(matrix)
+    return np.stack([found.real, found.imag], axis=1)
+
+
 SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "der": _der, "pre": _mapped(pre), "edge": _mapped(edge), "change": _mapped(change),
     "initial": _initial, "sample": _sample, "noEvent": _no_event, "smooth": _smooth,
@@ -295,6 +332,10 @@ SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "integer": _rounding(_floor, 1), "floor": _rounding(_floor, 1), "ceil": _rounding(_ceil, 1),
     "div": _rounding(_div, 2), "mod": _rounding(_mod, 2), "rem": _rounding(_rem, 2),
     "Integer": _rounding(_integer_of, 1), "String": _string, "cardinality": _cardinality, "assert": _assertion,
+    "Modelica.Utilities.Files.loadResource": _resource,
+    "Modelica.Math.Matrices.inv": _of_numbers(np.linalg.inv), "Modelica.Math.Matrices.det": _of_numbers(np.linalg.det),
+    "Modelica.Math.Matrices.solve": _of_numbers(np.linalg.solve, 2),
+    "Modelica.Math.Matrices.eigenValues": _of_numbers(_eigenvalues),
     "Connections.isRoot": is_root, "Connections.rooted": is_rooted, "rooted": is_rooted,
 }  # fmt: skip
 """Functions of the language that need more than the values of their arguments."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+import numpy as np
 import sympy as sp
 
 from acausal.errors import ModelError
@@ -89,7 +90,24 @@ def modify_connector(build: Any, name: str, given: Sequence[Given]) -> None:
             raise one.wrong(f"'{name}' has no '{variable}'")
         bind(build, build.component, f"{name}.{variable}", mod)
         if mod.inner:
-            _placed(one, build.component, name, {variable: _raw(mod)})
+            known = of(of_path(build, name), variable)
+            _placed(one, build.component, name, dict(_element_values(variable, known, _raw(mod))))
+
+
+def _element_values(name: str, variable: Any, raw: Any) -> Iterator[tuple[str, Any]]:
+    """The attributes of a variable of a connector; of an array those of its elements."""
+    if not isinstance(variable, np.ndarray):
+        yield name, raw
+        return
+    for place in np.ndindex(variable.shape):
+        element = f"{name}[{','.join(str(i + 1) for i in place)}]"
+        yield element, {k: _at(v, place) for k, v in raw.items()}
+
+
+def _at(value: Any, place: tuple[int, ...]) -> Any:
+    for i in place:
+        value = value[i] if isinstance(value, list) else value
+    return value
 
 
 def of_path(build: Any, name: str) -> Any:

@@ -11,6 +11,7 @@ from acausal.modelica.classes import ClassNode
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import (
+    ClassDefinition,
     Declared,
     Expression,
     LiteralConstant,
@@ -146,7 +147,9 @@ def modification(declared: Declared, given: Sequence[Given], frame: Frame) -> Mo
                 raise one.wrong(f"'{name}' is a component; it is not redeclared by a class")
             if not declared.prefixes.replaceable:
                 raise one.wrong(f"'{name}' is not replaceable")
-            found.redeclared, modifier = found.redeclared or one, element.modifier
+            if found.redeclared is not None:
+                continue  # what replaces this has modifiers of its own
+            found.redeclared, modifier = one, element.modifier
         if one.final and outer is not None:
             raise outer.wrong(f"'{name}' is final")
         if declared.prefixes.protected and one.frame.build is not frame.build:
@@ -179,3 +182,19 @@ def fields_of(node: ClassNode, value: Bound) -> list[Given]:
             )
         )
     return found
+
+
+def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
+    """The class that a redeclaration states; the same for the same text."""
+    key = f"redeclared at {definition.at} as {definition.name}"
+    known = frame.node.children
+    if key not in known:
+        short = definition.short
+        if short is not None and not short.modifier.arguments and not short.subscripts:
+            found, rest = frame.find(short.base.words)
+            if found is None or rest:
+                raise frame.node.unknown(short.base)
+            known[key] = found
+        else:
+            known[key] = ClassNode(definition, frame.node, frame.node.tree)
+    return known[key]

@@ -61,12 +61,7 @@ class Frame:
         return replace(self, local={**self.local, **local})
 
     def find(self, words: tuple[str, ...]) -> tuple[Any, Any]:
-        """A class or constant by its name; a class that is redeclared for this component counts first."""
-        if self.build is not None and words[0] in self.build.classes:
-            found, rest = self.build.classes[words[0]], words[1:]
-            while rest and (inner := self.node.tree.inside(found, rest[0])) is not None:
-                found, rest = inner, rest[1:]
-            return found, rest
+        """A class or constant by its name, and the words that are left."""
         return self.node.lookup(words)
 
 
@@ -148,7 +143,9 @@ class Operators(Arithmetic):
                 f"arrays of sizes {list(a.shape)} and {list(b.shape)} cannot be multiplied"
             )
         check_size(a.size * (b.shape[1] if b.ndim > 1 else 1), "the product")
-        return self.result(np.dot(a, b)) if a.size else 0
+        if not a.shape[-1]:
+            return np.zeros((*a.shape[:-1], *b.shape[1:]), dtype=object)[()]
+        return self.result(np.dot(a, b))
 
     def overloaded(self, operator: str, *values: Any) -> Any:
         """An operator of which an operand is a record."""
@@ -239,6 +236,10 @@ class Operators(Arithmetic):
             return self._number_of(value, what)
         return value
 
+    def known_array(self, value: Any) -> Any:
+        """Numbers of an array that parameters decide when the model is built."""
+        return np.array(each(lambda v: float(self.known(v, "a matrix")), value), dtype=float)
+
     @staticmethod
     def varies(value: Any) -> bool:
         """Whether a value changes with time."""
@@ -252,6 +253,8 @@ class Operators(Arithmetic):
             found = evaluated(value, what, {})
         except ModelError as error:
             raise self.wrong(str(error)) from None
+        except TypeError:
+            raise self.wrong(f"{what} is no finite real number here") from None
         if self.frame.build is not None:
             self.frame.build.decided[str(value)] = found
         return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal.modelica.classes import Entry
+from acausal.modelica.views import Entry
 from acausal.modeling import Discrete, Input, Parameter, Reference, Variable
 
 

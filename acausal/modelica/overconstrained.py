@@ -6,18 +6,22 @@ The virtual connection graph and its spanning trees are those of the Modelica sp
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.syntax import FunctionCall
+from acausal.modelica.values import Redundant
 from acausal.modeling import Component
+
+GraphNode: TypeAlias = Component | Redundant
+"""A record, or variables of a type that has an ``equalityConstraint``."""
 
 
 @dataclass(eq=False)
 class Edge:
     """Two records that a connection makes equal; where it is cut, their ``equalityConstraint`` is zero instead."""
 
-    ends: tuple[Component, Component]
+    ends: tuple[GraphNode, GraphNode]
     at: int
     cut: bool = False
 
@@ -32,13 +36,13 @@ class ConnectionGraph:
         depth: how far each is from the root of its tree.
     """
 
-    roots: list[Component] = field(default_factory=list[Component])
-    potential: list[tuple[int, Component]] = field(default_factory=list[tuple[int, Component]])
-    branches: list[tuple[Component, Component]] = field(
-        default_factory=list[tuple[Component, Component]]
+    roots: list[GraphNode] = field(default_factory=list[GraphNode])
+    potential: list[tuple[int, GraphNode]] = field(default_factory=list[tuple[int, GraphNode]])
+    branches: list[tuple[GraphNode, GraphNode]] = field(
+        default_factory=list[tuple[GraphNode, GraphNode]]
     )
     edges: list[Edge] = field(default_factory=list[Edge])
-    depth: dict[Component, int] = field(default_factory=dict[Component, int])
+    depth: dict[GraphNode, int] = field(default_factory=dict[GraphNode, int])
 
     def cut(self) -> None:
         """Cut connections until each tree has one root and no loop, and measure how far the records are from it."""
@@ -106,12 +110,12 @@ def _depth(self: Evaluator, call: FunctionCall) -> int:
     return graph_of(self).depth.get(_records(self, call)[0], 0)
 
 
-def _records(self: Evaluator, call: FunctionCall) -> list[Component]:
+def _records(self: Evaluator, call: FunctionCall) -> list[GraphNode]:
     before, self.connecting = self.connecting, True
     count = 2 if call.function.words[-1] == "branch" else 1
     found = [self.value(a) for a in call.arguments[:count]]
     self.connecting = before
-    if len(found) < count or not all(isinstance(v, Component) for v in found):
+    if len(found) < count or not all(isinstance(v, Component | Redundant) for v in found):
         raise self.wrong(
             f"{call.function.text} takes records of connectors", len(call.function.text)
         )

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from types import MappingProxyType
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import sympy as sp
@@ -30,8 +30,10 @@ from acausal.modelica.syntax import (
 from acausal.modelica.values import (
     Absent,
     Record,
+    as_record,
     each,
     elements,
+    is_record,
     of,
     type_of,
 )
@@ -41,7 +43,9 @@ from acausal.modeling import (
     Eq,
     Reference,
     Reinit,
+    Variable,
     When,
+    der,
     pre,
 )
 
@@ -72,7 +76,9 @@ class SectionReader(Connecting):
                 case Branches() if statement.word == "if":
                     yield from self._cases(statement.branches)
                 case Branches():
+                    self.further = []
                     yield self._when(statement, lambda body: list(self._at_event(body)))
+                    yield from self.further
                 case Do() if not is_of_graph(statement):
                     self.perform(statement.call)
                 case Do() | Connect():
@@ -206,7 +212,7 @@ class SectionReader(Connecting):
                     for equation in self._equation(statement):
                         if not isinstance(equation.lhs, Reference):
                             raise self.wrong("an equation within 'when' is 'variable = value'")
-                        yield equation
+                        yield self._sampled(equation)
                 case Do() if statement.call.function.text == "reinit":
                     yield from self._reinit(statement.call)
                 case Do():
@@ -266,7 +272,8 @@ class SectionReader(Connecting):
         build = self.frame.build
         assert build is not None
         always, at_events = set[str](), set[str]()
-        collect([s for s in stated if not _is_when(s)], always, within=True)
+        own = [s for s in stated if not self._is_of_part(s)]
+        collect([s for s in own if not _is_when(s)], always, within=True)
         collect([s for s in stated if _is_when(s)], at_events, within=True)
         if both := sorted(always & at_events):
             raise self.wrong(
@@ -285,6 +292,8 @@ class SectionReader(Connecting):
                 yield self._when(
                     statement, lambda body: self._assigned(body, local, variables, at_events)
                 )
+            elif isinstance(statement, EquationStatement) and statement not in own:
+                yield from self._equation(statement)
             else:
                 self.execute([statement], local)
         self.frame, self.assigned = frame, {}
@@ -294,6 +303,18 @@ class SectionReader(Connecting):
                 raise self.wrong(f"the algorithm does not assign '{word}' in every case")
             yield from self.pairs(variables[word], local[word])
 
+    def _is_of_part(self, statement: Statement) -> bool:
+        """Whether an assignment gives a variable of a part or connector its value, once, as an equation does."""
+        build: Any = self.frame.build
+        target = statement.left if isinstance(statement, EquationStatement) else None
+        if (
+            not isinstance(target, DottedName)
+            or len(target.words) == 1
+            or target.words[0] not in build.names
+        ):
+            return False
+        return not is_record(as_record(build.member(target.words[0])))
+
     def kept(self, word: str, value: Any) -> Any:
         """A large value of a discrete variable becomes a variable, so that what is made of it stays small."""
 
@@ -301,16 +322,31 @@ class SectionReader(Connecting):
             parts = sp.preorder_traversal(v) if isinstance(v, sp.Basic) else ()
             if len(list(islice(parts, LARGE))) < LARGE or not _is_discrete(variable):
                 return v
-            build: Any = self.frame.build
-            name = re.sub(r"\W+", "_", f"{variable.path}_{len(self.further) + 1}")
-            if name not in vars(build.component):
-                setattr(build.component, name, Discrete(kind=variable.declaration.kind))
-                build.types[name] = build.types[word]
-            found = getattr(build.component, name)
-            self.further += self.pairs(found, v)
-            return found
+            kind = variable.declaration.kind
+            return self.named(
+                f"{variable.path}_{len(self.further) + 1}", Discrete(kind=kind), word, v
+            )
 
         return each(one, self.assigned[word], value) if word in self.assigned else value
+
+    def named(self, name: str, declared: Variable, word: str, value: Any) -> Any:
+        """A further variable for a value, of the type of another one."""
+        build: Any = self.frame.build
+        name = re.sub(r"\W+", "_", name)
+        if name not in vars(build.component):
+            setattr(build.component, name, declared)
+            build.types[name] = build.types.get(word, "Real")
+        found = getattr(build.component, name)
+        self.further += self.pairs(found, value)
+        return found
+
+    def _sampled(self, equation: Eq) -> Eq:
+        """An equation within ``when``; its derivatives become variables, which are there at all times."""
+        target, value = cast(Reference, equation.lhs), equation.rhs
+        for i, one in enumerate(sorted(value.atoms(der), key=str), start=1):
+            variable = self.named(f"{target.path}_rate_{i}", Variable(), "", one)
+            value = value.xreplace({one: variable})
+        return Eq(target, value)
 
     def _assigned(
         self,
@@ -326,7 +362,7 @@ class SectionReader(Connecting):
         self.frame, self.jumps = Frame(frame.node, frame.build, inner, frame.events), []
         self.execute(body, inner)
         changed = [w for w in inner if inner[w] is not before.get(w)]
-        found = [e for w in changed for e in self.pairs(variables[w], inner[w])]
+        found = [self._sampled(e) for w in changed for e in self.pairs(variables[w], inner[w])]
         found += self.jumps
         self.frame, self.jumps = frame, jumps
         return found

@@ -13,9 +13,11 @@ from acausal.modelica.sections import SectionReader, collect
 from acausal.modelica.values import (
     as_array,
     elements,
+    of,
 )
 from acausal.modeling import (
     Component,
+    Connector,
     Discrete,
     Eq,
     Input,
@@ -158,6 +160,12 @@ def assigned_at_events(build: Any) -> frozenset[str]:
 
 def fed_by_connections(build: Any) -> frozenset[str]:
     """The signals of a class that it connects, and that no equation gives a value."""
+    connected, given = connected_or_given(build)
+    return connected - given
+
+
+def connected_or_given(build: Any) -> tuple[frozenset[str], frozenset[str]]:
+    """The signals of a class that it connects, and the variables to which an equation gives a value."""
     node = build.node
     if "fed" not in node.__dict__:
         connected, given = set[str](), set[str]()
@@ -165,7 +173,7 @@ def fed_by_connections(build: Any) -> frozenset[str]:
             if kind in ("equations", "algorithms"):
                 collect(stated, given, within=True)
                 connected |= ends_of(stated)
-        node.__dict__["fed"] = frozenset(connected - given)
+        node.__dict__["fed"] = frozenset(connected), frozenset(given)
     return node.__dict__["fed"]
 
 
@@ -178,5 +186,9 @@ def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
 def _target(part: Component, path: str) -> Any:
     """The variable of a part that a modifier gives a value."""
     build = part.__dict__.get("_build")
-    member = build.made.get(path) if build is not None and "." in path else None
+    member = build.made.get(path) if build is not None else None
+    owner, _, name = path.rpartition(".")
+    connector = part._node.declaration(owner)
+    if member is None and isinstance(connector, Connector):
+        return of(connector._bind(part._node, owner), name)
     return as_array(attribute(part, path)) if member is None else member

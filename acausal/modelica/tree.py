@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,8 @@ from acausal.modelica.grammar import parse
 from acausal.modelica.meanings import Native, Predefined, Prefix, Value
 from acausal.modelica.si_units import ATTRIBUTES, UNITS
 from acausal.modelica.tokens import read_source
-from acausal.netlist import CONSTANTS, Library, function
+from acausal.modeling import Component
+from acausal.netlist import CONSTANTS, Library, function, is_structural
 
 SI = re.compile(r"Modelica\.(?:Units\.(?:SI|NonSI)|SIunits(?:\.Conversions\.NonSIunits)?)\.(\w+)")
 PACKAGES = frozenset(
@@ -100,6 +101,7 @@ class Tree:
                             self.roots.setdefault(node.definition.name, node)
                         if isinstance(self.roots[name], ClassNode):
                             return self.roots[name]
+                        del self.roots[name]  # the file has other classes
         if any(name == known.partition(".")[0] for lib in self.libraries for known in lib.packages):
             return Prefix(name)
         return self.roots.get(name)
@@ -157,6 +159,12 @@ class Tree:
             package.children[key] = package.text(word)
         return package.children[key]
 
+    def text_with(self, native: Native, names: Iterable[str]) -> ClassNode | None:
+        """The text of a library's class, if it has one of these names and the class here lacks it."""
+        lacking = [n for n in names if not _has(native.cls, n)]
+        text = self.text(native.name) if lacking else None
+        return text if text and any(n in text.view().entries for n in lacking) else None
+
     def inside(self, package: Any, word: str) -> Any:
         """A member of a package."""
         if isinstance(package, ClassNode):
@@ -183,3 +191,10 @@ class Tree:
             for library in self.libraries
             for name in library.packages
         )
+
+
+def _has(cls: Any, name: str) -> bool:
+    """Whether a class of a library takes a modifier of this name."""
+    if not (isinstance(cls, type) and issubclass(cls, Component)):
+        return name in getattr(cls, "declarations", ())
+    return name in (*cls._declared, *cls.UNUSED, *cls.OUTER) or is_structural(cls, name)

@@ -34,6 +34,7 @@ class Type:
         connection: of a record in a connector, ``flow`` or ``potential``: what its variables are.
         subscripts: of a type that is an array.
         record: of a library, with its default values.
+        overconstrained: of a type with an ``equalityConstraint``, the class that defines it.
         full: the Modelica name of the class of a library.
     """
 
@@ -46,6 +47,7 @@ class Type:
     connection: str = ""
     subscripts: Sequence[tuple[Expression, ClassNode]] = ()
     record: Any = None
+    overconstrained: ClassNode | None = None
     full: str = ""
 
     @property
@@ -95,6 +97,7 @@ def type_of_class(node: ClassNode) -> Type:
             arguments=view.attributes,
             causality=view.causality,
             subscripts=view.subscripts,
+            overconstrained=node if is_overconstrained(node) else None,
         )
     signals = [n for n, _ in view.natives if n.cls in (Input, Output)]
     if signals and not view.entries:
@@ -107,6 +110,11 @@ def type_of_class(node: ClassNode) -> Type:
     if view.subscripts:
         raise node.wrong(node.definition.at, "a class that is an array of others is not supported")
     return Type(node=node, causality=view.causality)
+
+
+def is_overconstrained(node: ClassNode) -> bool:
+    """Whether connections of this record or type in a loop have more equations than it has independent values."""
+    return node.member("equalityConstraint") is not None
 
 
 def _signal_kind(native: Native) -> str:

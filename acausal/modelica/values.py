@@ -31,6 +31,58 @@ class Record:
     def __init__(self, fields: dict[str, Any], node: Any = None) -> None:
         self.fields, self.node = fields, node
 
+    def field(self, word: str) -> Any:
+        """The field of that name; None if there is none."""
+        return self.fields.get(word)
+
+
+class Redundant(Record):
+    """Variables of a connector whose type has an ``equalityConstraint``; ``value`` is what expressions see."""
+
+    def __init__(self, value: Any, node: Any, build: Any) -> None:
+        super().__init__({}, node)
+        self.value, self.build = value, build
+
+
+class Bus(Record):
+    """An expandable connector.
+
+    Attributes:
+        build, name: of the component that it belongs to, and its name there.
+        links: buses that it is connected to, each with the build of the class that states it.
+        ends: member -> what is connected to it, see `acausal.modelica.expandable.BusEnd`.
+    """
+
+    def __init__(self, build: Any, name: str) -> None:
+        super().__init__({})
+        self.build, self.name = build, name
+        self.links: list[tuple[Any, Bus]] = []
+        self.ends: dict[str, list[Any]] = {}
+
+    def field(self, word: str) -> Any:
+        """The member of that name, which may not be there yet."""
+        return self.fields.get(word, BusMember(self, word))
+
+    def nested(self, word: str) -> Bus:
+        """The member of that name, which is expandable, too."""
+        return self.fields.setdefault(word, Bus(self.build, f"{self.name}.{word}"))
+
+
+class BusMember(Record):
+    """A member of an expandable connector that is not there yet."""
+
+    def __init__(self, bus: Bus, name: str) -> None:
+        super().__init__({})
+        self.bus, self.name = bus, name
+
+    def field(self, word: str) -> Any:
+        """A member of this one, which is expandable, too."""
+        return self.bus.nested(self.name).field(word)
+
+    def element(self, index: Sequence[int]) -> Any:
+        """An element; each is a member of its own."""
+        return self.bus.field(f"{self.name}[{','.join(map(str, index))}]")
+
 
 def is_array(value: Any) -> bool:
     """Whether this is an array of numbers, truth values or texts, or a list of parts."""
@@ -114,7 +166,7 @@ def of(value: Any, word: str) -> Any:
         case Absent():
             return value
         case Record():
-            return value.fields.get(word)
+            return value.field(word)
         case np.ndarray() if is_record(value):
             return each(lambda v: of(v, word), value)
         case list() | tuple() if value:
@@ -133,15 +185,20 @@ def of(value: Any, word: str) -> Any:
                 return build.member(word)  # of a part that is not complete yet
             return as_array(member(value, word))
         case Connector():
-            return as_array(getattr(value, word, None)) if _has(value, word) else None
+            return as_array(getattr(value, attribute_of(word))) if _has(value, word) else None
         case _ if is_dataclass(value) and not isinstance(value, type):
             return getattr(value, word, getattr(value, f"{word}_", None))
         case _:
             return None
 
 
+def attribute_of(word: str) -> str:
+    """The attribute of a connector for a variable; of a name that every connector has it is another one: ``rate_``."""
+    return f"{word}_" if hasattr(Connector, word) else word
+
+
 def _has(connector: Connector, word: str) -> bool:
-    return isinstance(getattr(type(connector), word, None), Variable)
+    return isinstance(getattr(type(connector), attribute_of(word), None), Variable)
 
 
 def type_of(value: Any) -> str:
@@ -163,12 +220,16 @@ def is_end(value: Any) -> bool:
     """Whether this part of a connector is connected by itself: a connector, a signal, or several."""
     if is_array(value):
         return any(is_end(v) for v in value)
+    if isinstance(value, Redundant):
+        return False
     signal = isinstance(value, Reference) and isinstance(value.declaration, Input | Output)
     return signal or isinstance(value, Connector | Record)
 
 
 def as_record(value: Any) -> Any:
     """Parts that are records as values, lists of such as an array; others as they are."""
+    if isinstance(value, Redundant):
+        return value.value
     if isinstance(value, Record) and "" in value.fields and value.node is not None:
         return Record({k: as_record(v) for k, v in value.fields.items() if k}, value.node)
     if isinstance(value, np.ndarray):

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from acausal.modelica import statements
-from acausal.modelica.classes import Entry
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import ModifierValues, grouped
 from acausal.modelica.meanings import Literal
@@ -17,6 +16,7 @@ from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Whole
 from acausal.modelica.types import Type, attributes_of
 from acausal.modelica.values import array_of, each, elements, nested, type_of, with_fields
+from acausal.modelica.views import Entry
 from acausal.modeling import (
     Discrete,
     InitialParameter,
@@ -59,11 +59,16 @@ def declare(
     if found.predefined == "String":
         raise entry.wrong("a text that changes with time is not supported")
     shape = tuple(_sizes(build, entry, mod.value, sizes))
+    if 0 in shape:
+        build.made[name] = np.empty(shape, dtype=object)
+        return
     if found.native is not None and "unit" not in stated:
         stated["unit"] = ""
     declared = _variable(build, name, entry, found, mod, shape, _text(stated.pop("unit", "")))
     build.assign(name, entry, declared)
     start = {k: _value(v) for k, v in stated.items() if k not in ("min", "max")}
+    if isinstance(start.get("start"), np.ndarray):
+        start["start"] = each(lambda v: int(v) if isinstance(v, bool) else v, start["start"])
     if found.predefined != "Real" and not isinstance(declared, Discrete):
         start.pop("fixed", None)  # of its value before the start, which is that of its source
     for key in ("fixed", "stateSelect"):
@@ -104,7 +109,8 @@ def _variable(
         causality = "input" if found.native is Input else "output"
     given: dict[str, Any] = {"unit": unit, "shape": shape or None, "doc": entry.declared.comment}
     fed = mod.value is None and name in statements.fed_by_connections(build)
-    if fed and prefixes.protected and causality == "input":
+    stated = frozenset[str]().union(*statements.connected_or_given(build))
+    if prefixes.protected and causality == "input" and mod.value is None and name in stated:
         causality = "output"  # nothing reaches it from outside: it passes on what is within
     jumps = (
         kind != "real"
@@ -146,8 +152,9 @@ def _fixed(
         if "start" in stated:
             build.component.modify(**{name: Start(nested(_value(stated["start"])))})
         return
-    value = value or stated.get("start")
-    given = value.value() if isinstance(value, Bound) else value
+    start = stated.get("start")
+    value, given = value or (start if isinstance(start, Bound) else None), start
+    given = given if value is None else value.value()
     if given is None and (constant or not real):
         raise entry.wrong(f"'{name}' has no value; give one")
     if given is not None:
@@ -157,8 +164,8 @@ def _fixed(
         given = _spread(entry, name, given, known, value)
     elif isinstance(given, np.ndarray):
         raise entry.wrong(f"'{name}' is a single value, not an array")
-    if constant or not real:
-        build.made[name] = given
+    if constant or not real or 0 in known:
+        build.made[name] = np.empty(known, dtype=object) if 0 in known else given
         return
     low, high = (_value(stated.get(k)) for k in ("min", "max"))
     folded = 0.0 if isinstance(given, int | float) and given == 0 else None
@@ -209,7 +216,7 @@ def _sizes(build: Any, entry: Entry, value: Any, sizes: list[tuple[Any, Frame]])
     found: list[int] = []
     for place, (expression, frame) in enumerate(sizes):
         if not isinstance(expression, Whole):
-            found.append(build.size(expression, frame))
+            found.append(Interpreter(frame).size(expression))
             continue
         given = value.value() if isinstance(value, Bound) else value
         if not isinstance(given, np.ndarray) or place >= given.ndim:

@@ -94,7 +94,8 @@ class Declaration:
 
 
 def _declared_in(owner: type, name: str) -> Declaration:
-    return vars(owner)[name]
+    known = vars(owner)
+    return known[name] if name in known else known[f"{name}_"]  # a name that its class needs itself
 
 
 class Parameter(Declaration):

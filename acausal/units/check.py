@@ -43,8 +43,7 @@ def check_dimensions(flat: FlatModel) -> None:
         UnitError: for text that is not a unit; for equations, values and connections of unlike dimensions. It names
             the components, the equations as they are written, and the unlike terms in them, at most a dozen.
     """
-    if misspelt := list(_misspelt(flat.layout)):
-        raise UnitError(_listed(misspelt))
+    _tell(flat, [*_misspelt(flat.layout)])
     measures = _measure(flat)
     wrong = [*_equations(flat, measures)]
     wrong += _values(
@@ -52,8 +51,12 @@ def check_dimensions(flat: FlatModel) -> None:
     )
     wrong += _values(flat.starts, measures.variables, flat.layout.variable, flat.layout, measures)
     wrong += _joins(flat, measures)
+    _tell(flat, wrong)
+
+
+def _tell(flat: FlatModel, wrong: Sequence[str]) -> None:
     if wrong and not flat.layout.components[0]._units_bind:
-        warnings.warn(_listed(wrong), stacklevel=3)
+        warnings.warn(_listed(wrong), stacklevel=4)
     elif wrong:
         raise UnitError(_listed(wrong))
 
@@ -107,7 +110,7 @@ def _measure(flat: FlatModel) -> _Measures:
     indices: dict[Dimension | None, int] = {None: 0}
 
     def index(declaration: Declaration) -> int:
-        return indices.setdefault(dimension(declaration.unit), len(indices))
+        return indices.setdefault(_dimension(declaration.unit), len(indices))
 
     variables = [[index(d) for _, d in form.variables] for form in layout.forms]
     parameters = [[index(d) for _, d in form.parameters] for form in layout.forms]
@@ -123,7 +126,15 @@ def _measure(flat: FlatModel) -> _Measures:
 
 
 def _signature(module: Module) -> Signature:
-    return Signature(tuple(dimension(unit) for unit in module.takes), dimension(module.unit))
+    return Signature(tuple(_dimension(unit) for unit in module.takes), _dimension(module.unit))
+
+
+def _dimension(unit: str) -> Dimension | None:
+    """The dimension of a unit; of one that is not known, where that is no more than a warning, None."""
+    try:
+        return dimension(unit)
+    except UnitError:
+        return None
 
 
 # -- equations -----------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 import copy
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -64,6 +65,50 @@ def test_packages_are_found_beside_the_file_and_by_path(folder: Path, tmp_path: 
     with pytest.raises(ac.ModelicaError, match=r"line 2, .* 'Plant.Sub.Decay'; give the folder"):
         ac.load(moved)
     assert ac.load(moved, path=[folder]).a.x is not None
+
+
+def test_a_package_is_a_namespace_of_classes(folder: Path, tmp_path: Path) -> None:
+    plant = ac.import_modelica(folder / "Plant")
+    assert repr(plant) == "Plant: Sub, Law, factor"
+    assert (plant.factor, dir(plant.Sub)) == (2, ["Decay"])
+    decay = plant.Sub.Decay(k=5.0)
+    assert type(decay) is plant.Sub.Decay
+    assert decay._node.modifiers["k"] == 5
+    assert repr(ac.import_modelica("Plant", path=[folder]).Sub) == "Plant.Sub: Decay"
+    (tmp_path / "parts.mo").write_text("connector C Real p; flow Real f; end C; function g end g;")
+    parts = ac.import_modelica(tmp_path / "parts.mo", path=[folder])
+    assert issubclass(parts.C, ac.Connector)
+    with pytest.raises(AttributeError, match=r"parts\.mo has no 'D'; known are 'C', 'g'"):
+        parts.D  # noqa: B018
+    with pytest.raises(
+        ac.ModelicaError, match=r"line 1, column \d+: 'g' is a function, not a model"
+    ):
+        parts.g  # noqa: B018
+    with pytest.raises(ac.ModelicaError, match="there is no package 'Pump'; give the folder"):
+        ac.import_modelica("Pump", path=[folder])
+
+
+def test_a_python_model_has_parts_of_the_text() -> None:
+    parts = ac.import_modelica(TEXTBOOK)
+
+    class Discharge(ac.Component):
+        def __init__(self, **modifiers: Any) -> None:
+            self.c, self.r, self.g = parts.Capacitor(C=0.5), parts.Resistor(R=4.0), parts.Ground()
+            self.connect(self.c.p, self.r.p)
+            self.connect(self.c.n, self.r.n, self.g.p)
+            super().__init__(**modifiers)
+
+    system = ac.compile(Discharge())
+    found = system.vector_field(0.0, np.array([3.0]), None, system.parameters())
+    assert np.asarray(found) == pytest.approx([-1.5])
+
+
+def test_a_file_beside_that_has_other_classes_hides_no_constant(tmp_path: Path) -> None:
+    (tmp_path / "n.mo").write_text("package Other end Other;")
+    (tmp_path / "p.mo").write_text(
+        "package P constant Integer n=2; model M Real x[n]=ones(n); end M; end P;"
+    )
+    assert len(ac.load(tmp_path / "p.mo").x) == 2
 
 
 def test_the_last_model_is_meant_or_one_by_its_name(tmp_path: Path) -> None:

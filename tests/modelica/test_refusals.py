@@ -39,6 +39,7 @@ WRONG = {
     "model M parameter Boolean b=3; end M;": "3 is neither true nor false",
     "model M parameter Integer n=1.5; end M;": "'n' is a whole number, not 1.5",
     "model M parameter Integer n; Real x[n]; end M;": "'n' has no value",
+    "model M parameter Real a=0; parameter Integer n=integer(1/a); Real x[n]; end M;": "no finite real number",
     "model M parameter Real a=b; parameter Real b=a; end M;": "a -> b -> a: each depends on the next",
     "model M parameter Real m(min=0)=-1; end M;": "out of range: at least 0",
     "model M parameter Real k=1; equation assert(k>2,\"k is small\"); end M;": "violated: k is small",
@@ -74,7 +75,11 @@ WRONG = {
     "model M A a; B b; equation connect(a,b); end M;": "unlike connectors: only one has 'y'",
     "model M Clock c; end M;": "Clock is not supported",
     "connector C Real p; flow Real f; stream Real h; end C; model M C c; end M;": "a stream variable",
-    "expandable connector B end B; model M B b; end M;": "expandable connectors are not supported",
+    "expandable connector B end B; block G input Real u[2]; end G; model M B b; G g; G h;"
+    "equation connect(b.x, g.u); connect(b.x[1], h.u[1]); end M;": "'b.x' is connected as a whole, too",
+    f"expandable connector B end B; model M B b; {M}Mass m[2]; equation connect(b.x, m.flange_a); end M;":
+    "'b.x' of an expandable connector has to be a signal or a connector",
+    "expandable connector B end B; model M B b; Real y = b.x; end M;": "'b' has no 'x'",
     "model M Real x; equation x=1; when x>1 then terminate(\"a\"); end when; end M;": "terminate",
     "record R Real x; end R; model M R a; R b; equation a=b+b; b.x=1; end M;": "'R' has no operator '\\+' for 2",
     "model M Real x; equation der(x)=1; Connections.root(x); end M;": "Connections.root takes records of connectors",

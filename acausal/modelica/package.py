@@ -1,0 +1,109 @@
+"""Packages of Modelica text as namespaces of Python: their classes are attributes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from acausal import netlist
+from acausal.errors import ModelError, nearest
+from acausal.files import need_path
+from acausal.modelica.build import class_of
+from acausal.modelica.classes import PATH_HINT, ClassNode
+from acausal.modelica.connectors import connector_class
+from acausal.modelica.functions import Interpreter
+from acausal.modelica.meanings import Native, Value
+from acausal.modelica.operators import Frame
+from acausal.modelica.syntax import ClassDefinition
+from acausal.modelica.tokens import ModelicaError
+from acausal.modelica.tree import Tree
+
+
+class ModelicaPackage:
+    """A package of Modelica text, or the classes of a file: packages, classes and constants are attributes.
+
+    Attributes are read when they are asked for; `dir` lists them.
+    """
+
+    def __init__(self, name: str, members: dict[str, ClassNode], node: ClassNode | None) -> None:
+        self._name, self._members, self._node = name, members, node
+
+    def __getattr__(self, name: str) -> Any:
+        """A package, the Python class of a model, block, record or connector, or the value of a constant.
+
+        Raises:
+            AttributeError: if there is none of this name.
+            ModelError: if it is wrong, or nothing that Python can use, such as a function.
+        """
+        if name.startswith("__"):
+            raise AttributeError(name)
+        found = self._members.get(name)
+        if found is None and self._node is not None:
+            if name in self._node.view().entries:
+                return Interpreter(Frame(self._node)).constant(self._node, name)
+            found = self._node.member(name)
+        if found is None:
+            raise AttributeError(f"{self._name} has no '{name}'; {nearest(name, self.__dir__())}")
+        if isinstance(found, Native | Value):
+            return found.cls if isinstance(found, Native) else found.value
+        kind = found.definition.kind
+        if kind == "package":
+            return package_of(found)
+        return connector_class(found) if kind == "connector" else class_of(found)
+
+    def __dir__(self) -> list[str]:
+        node = self._node
+        return [*self._members] if node is None else [*names_in(node), *node.view().entries]
+
+    def __repr__(self) -> str:
+        return f"{self._name}: {', '.join(self.__dir__())}"
+
+
+def package_of(node: ClassNode) -> ModelicaPackage:
+    """The namespace of a package."""
+    return ModelicaPackage(node.full, {}, node)
+
+
+def names_in(node: ClassNode) -> list[str]:
+    """The names of the classes of a package, in the order of the text, its files last."""
+    own = [e.name for e in node.definition.elements if isinstance(e, ClassDefinition)]
+    return [*dict.fromkeys((*own, *node.files))]
+
+
+def import_modelica(
+    source: str | Path,
+    *,
+    libraries: Sequence[ModuleType] = (),
+    path: Sequence[str | Path] = (),
+) -> ModelicaPackage:
+    """The classes of a Modelica package, for use in Python: ``lib = ac.import_modelica("Lib"); lib.Parts.Damper(d=2)``.
+
+    They are classes of components and connectors like all others: make them, connect them, extend them.
+
+    Arguments:
+        source: a folder with a ``package.mo``, a file ``….mo``, or the name of a package in one of the folders of
+            ``path`` or of ``MODELICAPATH``. A file that holds one package is this package; another one is a namespace
+            of its classes.
+        libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
+        path: folders with further packages of Modelica text, before those in ``MODELICAPATH``.
+
+    Returns:
+        A namespace; packages within are namespaces, too.
+
+    Raises:
+        ModelError: for text that cannot be read or is wrong; a class is looked at when it is asked for.
+    """
+    file = need_path(source, "import_modelica", ModelError)
+    tree = Tree(netlist.libraries_of(libraries), [Path(p) for p in path])
+    if not file.exists() and file.suffix != ".mo":
+        found = tree.resolve(file.name)
+        if not isinstance(found, ClassNode):
+            raise ModelicaError(f"there is no package '{source}'; {PATH_HINT}")
+        nodes = [found]
+    else:
+        nodes = tree.add(file / "package.mo" if file.is_dir() else file)
+    if len(nodes) == 1 and nodes[0].definition.kind == "package":
+        return package_of(nodes[0])
+    return ModelicaPackage(file.name, {node.definition.name: node for node in nodes}, None)

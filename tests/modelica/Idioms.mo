@@ -1,0 +1,413 @@
+package Idioms "What public libraries write; each model has a known derivative"
+  type Substance = enumeration(A, B);
+  import Idioms.Substance.B;
+
+  model StateSpace "matrices without columns or rows"
+    parameter Integer nx = 0, nu = 0, ny = 0;
+    parameter Real A[nx, nx] = fill(0, nx, nx);
+    parameter Real B[nx, nu] = fill(0, nx, nu);
+    parameter Real C[ny, nx] = fill(0, ny, nx);
+    Real x[nx](each start = 1, each fixed = true), u[nu], y[ny];
+  equation
+    der(x) = A*x + B*u;
+    y = C*x;
+  end StateSpace;
+
+  model Free
+    extends StateSpace(nx = 2, A = [0, 1; -4, 0]);
+  equation
+    u = fill(0, 0);
+  end Free;
+
+  connector Species "names that Python needs for something else"
+    Real population;
+    flow Real rate;
+  end Species;
+
+  model Growth
+    Species species(population(start = 1, fixed = true));
+    parameter Real document = 3;
+    Real shapes = species.population;
+    Real 'a+b' = document*shapes;
+  equation
+    der(species.population) = species.rate + 'a+b';
+  end Growth;
+
+  model Loss
+    Species species;
+    parameter Real replace = 1;
+  equation
+    species.rate = replace*species.population;
+  end Loss;
+
+  model Population
+    Growth g(document = 4);
+    Loss loss(replace = 0.5), '1st';
+  equation
+    connect(g.species, loss.species);
+    connect(g.species, '1st'.species);
+  end Population;
+
+  connector Mixture "as many variables as values of a type"
+    Real c[Substance];
+    flow Real n[Substance];
+  end Mixture;
+
+  model Tank
+    Mixture m;
+    parameter Substance slow = B "by an import of a value";
+    parameter Modelica.Units.SI.Temperature T "without a value: its start counts";
+    Real c[Substance](each start = 1, each fixed = true) = m.c;
+  equation
+    for s in Substance loop
+      der(c[s]) = m.n[s] + (if s == slow then 2 else T/288.15);
+    end for;
+  end Tank;
+
+  partial model Law
+    Real x(start = 1, fixed = true);
+  end Law;
+
+  model Decay
+    extends Law;
+    parameter Real k = 1;
+  equation
+    der(x) = -k*x;
+  end Decay;
+
+  model Linear
+    extends Law;
+  equation
+    der(x) = -2;
+  end Linear;
+
+  model Plant
+    replaceable Decay law(x(start = 3)) constrainedby Law;
+  end Plant;
+
+  model Fast
+    extends Plant(redeclare replaceable Decay law(k = 5));
+  end Fast;
+
+  model Redeclared "twice; the modifiers of the first replacement are those of its class"
+    extends Fast(redeclare Linear law);
+  end Redeclared;
+
+  partial package Phases "a package of sizes and functions, whose members see those of the package that extends it"
+    constant Integer n;
+    constant Real gain = 10*n;
+    type Voltage = Real(unit = "V", nominal = gain);
+    replaceable partial function turned
+      input Real x[n];
+      output Real y[n];
+    end turned;
+    function twice
+      input Real x[n];
+      output Real y[n] = 2*turned(x);
+    end twice;
+  end Phases;
+
+  package Direct
+    extends Phases(n = 1);
+    redeclare function extends turned
+    algorithm
+      y := -x;
+    end turned;
+  end Direct;
+
+  package Rotating
+    extends Phases(n = 2);
+    redeclare function extends turned
+    algorithm
+      y := {-x[2], x[1]};
+    end turned;
+  end Rotating;
+
+  connector Terminal
+    replaceable package System = Phases;
+    System.Voltage v[System.n];
+    flow Real i[System.n];
+  end Terminal;
+
+  connector Plug
+    extends Terminal;
+  end Plug;
+
+  model Machine
+    replaceable package System = Direct constrainedby Phases;
+    function turned = System.turned;
+    Plug plug(redeclare package System = System);
+    Real x[System.n](each start = 1, each fixed = true) = plug.v;
+  equation
+    der(x) = plug.i + turned(x) + System.gain*System.twice(x);
+  end Machine;
+
+  model Load
+    replaceable package System = Direct constrainedby Phases;
+    Terminal t(redeclare package System = System);
+  equation
+    t.i = t.v;
+  end Load;
+
+  model Drive
+    replaceable package System = Direct constrainedby Phases;
+    Machine machine(redeclare package System = System);
+    Load load(redeclare package System = System);
+  equation
+    connect(machine.plug, load.t);
+  end Drive;
+
+  type Reference "of a turning frame"
+    extends Modelica.Units.SI.Angle;
+    function equalityConstraint
+      input Reference a[:], b[:];
+      output Real residue[0];
+    algorithm
+      assert(size(a, 1) == size(b, 1), "unlike");
+    end equalityConstraint;
+  end Reference;
+
+  connector Phasor
+    Real v[2];
+    flow Real i[2];
+    Reference theta[1];
+  end Phasor;
+
+  model Grid
+    Phasor p;
+    parameter Real w = 3;
+  equation
+    Connections.potentialRoot(p.theta);
+    if Connections.isRoot(p.theta) then
+      p.theta[1] = w*time;
+    end if;
+    p.v = {cos(p.theta[1]), sin(p.theta[1])};
+  end Grid;
+
+  model Line
+    Phasor a, b;
+    parameter Real L = 2;
+    Real i[2](each start = 1, each fixed = true);
+  equation
+    Connections.branch(a.theta, b.theta);
+    a.theta = b.theta;
+    a.i = i;
+    L*der(i) + der(a.theta[1])*{-i[2], i[1]} = a.v - b.v;
+  algorithm
+    b.i := -i;
+  end Line;
+
+  model Consumer
+    Phasor p;
+  equation
+    p.v = p.i;
+  end Consumer;
+
+  model Lines "two in parallel, whose loop is cut"
+    Grid grid;
+    Line one, two(L = 4);
+    Consumer consumer;
+  equation
+    connect(grid.p, one.a);
+    connect(grid.p, two.a);
+    connect(one.b, consumer.p);
+    connect(two.b, consumer.p);
+  end Lines;
+
+  expandable connector Bus
+  end Bus;
+
+  expandable connector ControlBus
+    extends Bus;
+    Bus sensors;
+    Real unused;
+  end ControlBus;
+
+  model Mass
+    Bus bus;
+    Modelica.Mechanics.Translational.Components.Mass m(m = 2, s(start = 1, fixed = true), v(start = 1, fixed = true));
+    Modelica.Mechanics.Translational.Sources.Force force;
+    Modelica.Mechanics.Translational.Sensors.PositionSensor position;
+    Modelica.Blocks.Sources.BooleanConstant on;
+  equation
+    connect(force.flange, m.flange_a);
+    connect(m.flange_b, position.flange);
+    connect(bus.force, force.f);
+    connect(position.s, bus.position);
+    connect(bus.flange, m.flange_b);
+    connect(on.y, bus.on);
+  end Mass;
+
+  model Controller "reads a signal through an input of its own"
+    ControlBus bus;
+    Modelica.Blocks.Math.Gain gain(k = -3);
+    Modelica.Blocks.Logical.Switch switch;
+    Modelica.Blocks.Sources.Constant none(k = 0);
+  protected
+    Modelica.Blocks.Interfaces.RealInput u;
+  equation
+    connect(bus.sensors.position, u);
+    connect(u, gain.u);
+    connect(gain.y, switch.u1);
+    connect(none.y, switch.u3);
+    connect(bus.on, switch.u2);
+    connect(switch.y, bus.force);
+  end Controller;
+
+  model Bystander
+    ControlBus bus;
+  end Bystander;
+
+  model Controlled "signals and a flange go through buses, also through one of a part that uses nothing of them"
+    Mass mass;
+    Bystander between;
+    Controller controller;
+    Bus sensors;
+    Modelica.Mechanics.Translational.Components.Spring spring(c = 5);
+    Modelica.Mechanics.Translational.Components.Fixed wall;
+    Modelica.Blocks.Continuous.Integrator sum[2](each y_start = 1);
+  equation
+    connect(mass.bus, between.bus);
+    connect(between.bus, controller.bus);
+    connect(mass.bus.position, sensors.position);
+    connect(sensors, controller.bus.sensors);
+    connect(wall.flange, spring.flange_a);
+    connect(spring.flange_b, mass.bus.flange);
+    for i in 1:2 loop
+      connect(between.bus.sum[i], sum[i].u);
+    end for;
+    connect(mass.bus.position, between.bus.sum[1]);
+    connect(sum[1].y, between.bus.sum[2]);
+  end Controlled;
+
+  function piecewise "a value that only branches assign"
+    input Real x, xs[:], ys[:];
+    output Real y;
+  algorithm
+    for i in 1:size(xs, 1) - 1 loop
+      if x >= xs[i] and x <= xs[i + 1] then
+        y := ys[i] + (ys[i + 1] - ys[i])*(x - xs[i])/(xs[i + 1] - xs[i]);
+      end if;
+    end for;
+  end piecewise;
+
+  partial model Fluid
+    replaceable function density
+      input Real p;
+      output Real d;
+    end density;
+    function twice
+      input Real p;
+      output Real d = 2*density(p);
+    end twice;
+  end Fluid;
+
+  model Oil
+    extends Fluid;
+    redeclare function density
+      input Real p;
+      output Real d = 1000 + p;
+    end density;
+  end Oil;
+
+  connector Plain
+    Real c;
+    flow Real n;
+  end Plain;
+
+  connector Port
+    extends Plain;
+    input Real V;
+  end Port;
+
+  model Pipe "functions of a part and of the library, values for variables of a connector"
+    outer Oil oil;
+    function arctan = Modelica.Math.atan;
+    Real x(start = 1, fixed = true);
+    Port port(c = 3*x);
+    Modelica.Blocks.Interfaces.BooleanOutput open[2](start = fill(true, 2), each fixed = true);
+  equation
+    der(x) = port.c + piecewise(x, {0, 2, 5}, {1, 3, 9}) + oil.twice(5) + arctan(0);
+    connect(port, port);
+    when time > 1 then
+      open = {false, not pre(open[2])};
+    end when;
+  end Pipe;
+
+  block Weighted "sizes that an interface of the library declares"
+    extends Modelica.Blocks.Interfaces.MISO;
+    parameter Real k[nin];
+    Real sum(start = 1, fixed = true);
+  equation
+    y = k*u;
+    der(sum) = y;
+  end Weighted;
+
+  model Piping
+    inner Oil oil;
+    Pipe pipe;
+    Weighted weighted(nin = 2, k = {3, 4});
+  equation
+    pipe.port.V = 0;
+    weighted.u = {pipe.x, 1};
+  end Piping;
+
+  connector Vector
+    Real v[2];
+    flow Real i[2];
+  end Vector;
+
+  model Store
+    Vector c;
+  equation
+    der(c.v) = c.i + {1, 2};
+  end Store;
+
+  model Matrices "of numbers that are known, and arrays of arrays"
+    parameter Real k = 2;
+    parameter Real A[2, 2] = Modelica.Math.Matrices.inv([k, 1; 0, 4]);
+    parameter Real b[2] = Modelica.Math.Matrices.solve([k, 1; 0, 4], {1, 2});
+    parameter Real poles[2, 2] = Modelica.Math.Matrices.eigenValues([0, 1; -9, 0]);
+    Store store(c(v(start = {3, 4}, each fixed = true)));
+    Real x[2, 1](start = transpose(fill({1, 1}, 1)), each fixed = true);
+  equation
+    der(x) = -poles[1, 2]^2*transpose(fill(A*{1, 2} + b, 1));
+  end Matrices;
+
+  model Voltage "an input that is there or not, and one within that stands for it"
+    parameter Boolean use_v = false;
+    parameter Real v0 = 2;
+    Modelica.Blocks.Interfaces.RealInput v[2] if use_v;
+    Real x[2](each start = 1, each fixed = true);
+  protected
+    Modelica.Blocks.Interfaces.RealInput passed[2];
+  equation
+    connect(v, passed);
+    if not use_v then
+      passed = {v0, 3};
+    end if;
+    der(x) = passed;
+  end Voltage;
+
+  model Voltages
+    Voltage own, given(use_v = true);
+    Modelica.Blocks.Sources.Constant c[2](k = {5, 6});
+  equation
+    connect(c.y, given.v);
+  end Voltages;
+
+  model All
+    Voltages voltages;
+    Matrices matrices;
+    Piping piping;
+    Lines lines;
+    Drive direct;
+    Drive rotating(redeclare package System = Rotating);
+    Controlled controlled;
+    Free free;
+    Population population;
+    Tank tank;
+    Fast fast;
+    Redeclared redeclared;
+  end All;
+end Idioms;

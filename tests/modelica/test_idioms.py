@@ -1,0 +1,123 @@
+"""What public libraries write: names, sizes, redeclarations, buses."""
+
+import copy
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+
+FILE = Path(__file__).with_name("Idioms.mo")
+MOVES = {
+    # -load + turned + gain*2*turned
+    "direct.machine.x[1]": -1 - 1 - 10 * 2,
+    "rotating.machine.x[1]": -1 - 1 - 20 * 2,
+    "rotating.machine.x[2]": -1 + 1 + 20 * 2,
+    "voltages.own.x[1]": 2,
+    "voltages.own.x[2]": 3,
+    "voltages.given.x[1]": 5,
+    "voltages.given.x[2]": 6,
+    "matrices.store.c.v[1]": 1,
+    "matrices.store.c.v[2]": 2,
+    "matrices.x[1,1]": -9 * (0.25 + 0.25),
+    "matrices.x[2,1]": -9 * (0.5 + 0.5),
+    # L*der(i) = v - R*(the sum of both) - w*L*(i, turned)
+    "lines.one.i[1]": (1 - 2 + 3) / 2,
+    "lines.one.i[2]": (0 - 2 - 3) / 2,
+    "lines.two.i[1]": (1 - 2 + 3) / 4,
+    "lines.two.i[2]": (0 - 2 - 3) / 4,
+    "piping.pipe.x": 3 + 2 + 2010,
+    "piping.weighted.sum": 3 + 4,
+    "controlled.mass.m.s": 1,
+    "controlled.mass.m.v": (-3 - 5) / 2,
+    "controlled.sum[1].y": 1,
+    "controlled.sum[2].y": 1,
+    "free.x[1]": 1,
+    "free.x[2]": -4,
+    "population.g.species.population": 4 - 0.5 - 1,
+    "tank.c[1]": 1,
+    "tank.c[2]": 2,
+    "fast.law.x": -5,
+    "redeclared.law.x": -2,
+}
+"""State -> its derivative where every state is 1."""
+
+
+@pytest.fixture(scope="module")
+def model() -> Any:
+    return ac.load(FILE, "Idioms.All")
+
+
+@pytest.fixture(scope="module")
+def system(model: Any) -> ac.System:
+    return ac.compile(model)
+
+
+def test_states_move_as_their_equations_say(system: ac.System) -> None:
+    ones = np.ones(len(system.states))
+    found = system.vector_field(0.0, ones, None, system.parameters())
+    moves = dict(zip(system.states, map(float, found), strict=True))
+    assert moves == pytest.approx(MOVES)
+
+
+def test_a_copy_has_the_same_equations(model: Any, system: ac.System) -> None:
+    again = ac.compile(copy.deepcopy(model))
+    assert [str(e) for e in again.equations] == [str(e) for e in system.equations]
+
+
+def test_names_are_those_of_the_text(system: ac.System) -> None:
+    assert {"population.'1st'.replace", "population.g.document"} <= set(system.parameters())
+
+
+@pytest.mark.slow
+def test_a_derivative_is_sampled(tmp_path: Path) -> None:
+    file = tmp_path / "sampled.mo"
+    file.write_text("""
+        model M
+          Real x(start = 1, fixed = true);
+          Real rate(start = 0, fixed = true), last(start = 0, fixed = true);
+        equation
+          der(x) = -x;
+          when sample(0.25, 0.5) then
+            rate = 3*der(x);
+          end when;
+        algorithm
+          when time > 0.5 then
+            last := der(x);
+          end when;
+        end M;""")
+    run = ac.simulate(ac.compile(ac.load(file)), (0, 1), dt=0.05)
+    assert run["rate"][-1] == pytest.approx(-3 * np.exp(-0.75), rel=1e-6)
+    assert run["last"][-1] == pytest.approx(-np.exp(-0.5), rel=1e-4)
+
+
+def test_files_lie_in_the_folder_of_their_package(tmp_path: Path) -> None:
+    (tmp_path / "Lib").mkdir()
+    (tmp_path / "Lib" / "table.txt").write_text("#1\ndouble tab(2,2)\n0 1\n1 3\n")
+    (tmp_path / "Lib" / "package.mo").write_text("""
+        package Lib
+          model M
+            Modelica.Blocks.Sources.CombiTimeTable t(
+              tableOnFile = true, tableName = "tab", columns = {2},
+              fileName = Modelica.Utilities.Files.loadResource("modelica://Lib/table.txt"));
+            Real y = t.y[1];
+          equation
+            when time > 1 then
+              Modelica.Utilities.Streams.print("done");
+            end when;
+          end M;
+        end Lib;""")
+    with pytest.warns(UserWarning, match="line 10, column 15: this text is not printed"):
+        model = ac.load(tmp_path / "Lib")
+    assert model.t is not None
+
+
+def test_a_unit_that_nobody_knows_is_a_warning(tmp_path: Path) -> None:
+    file = tmp_path / "costs.mo"
+    file.write_text(
+        'model M Real x(unit="dollar", start=1, fixed=true); equation der(x) = -x; end M;'
+    )
+    with pytest.warns(UserWarning, match="M.x: 'dollar' is not a unit"):
+        assert ac.compile(ac.load(file)).states == ("x",)
