@@ -69,7 +69,6 @@ class Automatic:
         stages: what to do.
         step: of the integration; ``None`` where the user has said anything of it.
         linear: the linear start; ``None`` where no network lacks scales.
-        noise: the loss that the noise alone leaves; ``None`` where the loss is no root mean square.
         not_laws: networks that are no laws of the library, which are trained from where they are.
     """
 
@@ -78,7 +77,6 @@ class Automatic:
     stages: tuple[Stage, ...]
     step: StepChoice | None
     linear: LinearStart | None
-    noise: float | None
     not_laws: tuple[str, ...]
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
@@ -172,7 +170,7 @@ def automatic(
     settled = step.of(options, records)
     stages = _stages(start.problem, rows, begun, new[0], names, explains, noise, options)
     free = None if step.solver is None or options.dt is not None else step
-    return Automatic(settled, new, stages, free, start if shapes else None, noise, fixed)
+    return Automatic(settled, new, stages, free, start if shapes else None, fixed)
 
 
 def _start(problem: Problem, shapes: dict[str, LawShape]) -> LinearStart:
@@ -290,7 +288,7 @@ def _stages(
     kind = "gauss_newton" if few else "whole_record"
     usual = options.epochs is None
     epochs = UPDATES[kind] if usual else options.updates[0]
-    enough = -np.inf if noise is None else GOOD * noise
+    enough = 0.0 if noise is None else GOOD
     gain = min(GAIN, NATS / float(np.sum(np.asarray(problem.records.weight) > 0)))
     whole = Stage(kind, epochs, gain=gain, title="whole record")
     more = whole._replace(epochs=LONGER * epochs, every=epochs // EVALUATIONS, above=enough)

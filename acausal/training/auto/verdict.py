@@ -67,7 +67,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     problem = fit.problem
     if problem.loss is not LOSSES["nrmse"]:
         return None
-    noise, level = noise_loss(problem.records), np.sqrt(len(problem.targets))
+    predicted = problem.simulate(fit.trained).y
+    noise, level = noise_loss(problem.records, predicted), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
     down = fit.loss <= DOWN_TO * noise
