@@ -1,6 +1,7 @@
 """Linear laws in the place of networks, before the training of these."""
 
 from pathlib import Path
+from unittest.mock import ANY
 
 import jax.numpy as jnp
 import numpy as np
@@ -25,13 +26,14 @@ from acausal.networks import (
     networks,
     with_scales,
 )
-from acausal.training.auto.automatic import _stages
+from acausal.training.auto.automatic import _scales_of, _stages
 from acausal.training.auto.linear_start import (
     LinearStart,
     linear_module,
     linear_start,
     with_constants_at_zero,
 )
+from acausal.training.auto.step_choice import StepChoice, tried_steps
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
 from acausal.training.options import FitOptions
@@ -43,11 +45,13 @@ T = np.linspace(0.0, 0.02, 101)
 VOLTS = np.sin(900 * T) + 0.5 * np.sin(2100 * T + 1)
 
 
-def problem_of(learner: ac.Component, target: str, **signals: np.ndarray) -> Problem:
+def problem_of(
+    learner: ac.Component, target: str, solver: str = "rk4", **signals: np.ndarray
+) -> Problem:
     system = ac.compile(learner)
     params = system.parameters()
     linear = {n: linear_module(linear_shape(net)) for n, net in networks(params).items()}
-    options = FitOptions(solver="rk4")
+    options = FitOptions(solver=solver)
     record = ac.Data(T, signals)
     return build_problem(system, {"run": record}, (target,), {**params, **linear}, options)
 
@@ -59,6 +63,38 @@ def start_of(problem: Problem) -> LinearStart:
 
 def element() -> ac.Component:
     return neural.Resistance(el.PositivePin, width=4, depth=1)
+
+
+@pytest.mark.parametrize("solver", ["rk4", "kvaerno3"])
+def test_a_linear_law_is_found_closer_than_its_decade(solver: str) -> None:
+    """By Gauss-Newton, in implicit steps, too."""
+    circuit = Wired(
+        [("source.p", "element.p"), ("element.n", "capacitor.p"), ("capacitor.n", "source.n", "ground.p")],
+        source=el.SignalVoltage(), element=element(), capacitor=el.Capacitor(C=1e-6), ground=el.Ground(),
+    )  # fmt: skip
+    v = np.zeros(len(T))
+    for k, h in enumerate(np.diff(T)):  # exact for the mean voltage of a sample
+        mean = (VOLTS[k] + VOLTS[k + 1]) / 2
+        v[k + 1] = mean + (v[k] - mean) * np.exp(-h / 2e-3)
+    found = start_of(
+        problem_of(circuit, "capacitor.v", solver, **{"source.v": VOLTS, "capacitor.v": v})
+    )
+    assert found.loss < 0.01
+    assert found.laws["element.net"].slope[0] == pytest.approx(5e-4, rel=0.01)
+
+
+def test_a_law_counts_by_what_is_usual_not_by_peaks() -> None:
+    seen = np.concatenate([np.linspace(-1.0, 1.0, 999), [50.0]])[:, None]
+    nothing, shape = Affine((1.0,), 0.0), linear_shape(Law()(0))
+    (reach,) = _scales_of(seen, nothing, nothing, shape)[0].reach
+    assert reach == pytest.approx(50.0 / 4)
+    (reach,) = _scales_of(seen[:-1], nothing, nothing, shape)[0].reach
+    assert reach == pytest.approx(np.sqrt(1 / 3), rel=0.01)
+
+
+def test_models_with_events_begin_in_implicit_steps() -> None:
+    assert list(tried_steps(FitOptions(), events=True)) == [StepChoice("kvaerno3", 1, ANY)]
+    assert next(tried_steps(FitOptions(), events=False)).solver == "rk4"
 
 
 @pytest.mark.slow

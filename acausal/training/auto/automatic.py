@@ -30,6 +30,9 @@ from acausal.training.strategy import EVALUATIONS, Stage
 if TYPE_CHECKING:
     from acausal.system import System
 
+PEAK = 4.0
+"""A law's argument counts by its standard deviation: peaks are rare. They are so many times as large at most."""
+
 MOST = 4000
 """Rows of the part of the records in which the linear start is sought."""
 
@@ -128,7 +131,7 @@ def automatic(
     rows = int(np.median([len(data) for data in records.values()]))
     level = EXPLAINS * np.sqrt(len(targets))
     step, start, explains, begun = StepChoice(None), None, False, max(2 * PIECE, rows // 16)
-    for trial in tried_steps(options):
+    for trial in tried_steps(options, system.events is not None):
         found = _start(problem_of(part, trial), shapes)
         if start is None or found.loss < 0.8 * start.loss:
             step, start, explains = trial, found, found.loss < level
@@ -250,18 +253,14 @@ def _scales(
 def _scales_of(
     seen: np.ndarray, law: Affine, sensitive: Affine, shape: LawShape
 ) -> tuple[Scales, Affine]:
-    low, high = (
-        (seen.min(axis=0), seen.max(axis=0))
-        if len(seen)
-        else (-np.ones(shape.every), np.ones(shape.every))
-    )
-    middle, reach = (low + high) / 2, (high - low) / 2
-    reach = np.where(reach > 1e-9 * np.abs(middle), reach, np.maximum(np.abs(middle), 1.0))
-    centre = np.where(np.abs(middle) > 0.3 * reach, middle, 0.0)
-    reach = np.where(centre == 0.0, np.maximum(np.abs(low), np.abs(high)), reach)
-    reach = np.where(reach > 0, reach, 1.0)
-    n = shape.inputs
-    values = law.offset + (seen[:, :n] @ np.asarray(law.slope) if len(seen) else np.zeros(1))
+    seen = seen if len(seen) else np.stack([-np.ones(shape.every), np.ones(shape.every)])
+    low, high, mean = seen.min(axis=0), seen.max(axis=0), seen.mean(axis=0)
+    half = (high - low) / 2
+    half = np.where(half > 1e-9 * np.abs(mean), half, np.maximum(np.abs(mean), 1.0))
+    centre = np.where(np.abs(mean) > 0.3 * half, mean, 0.0)
+    far = np.maximum(np.maximum(high - centre, centre - low), half)
+    reach = np.maximum(np.sqrt(np.mean((seen - centre) ** 2, axis=0)), far / PEAK)
+    values = law.offset + seen[:, : shape.inputs] @ np.asarray(law.slope)
     size = float(np.std(values))
     left = [s * r for s, r in zip(sensitive.slope, reach, strict=False)] + [sensitive.offset]
     wide = min((s for s in left if np.isfinite(s) and s > 0), default=0.0)

@@ -19,11 +19,10 @@ from jaxtyping import Array, Float
 
 from acausal._jax import compiled
 from acausal.networks import Affine, BesideLinear, BesideQuadratic, LawShape, Scales
-from acausal.simulation import EXPLICIT
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.objective.whole_record import over_whole_record
-from acausal.training.optimizers.gradients import total, with_gauss_newton_hessian
+from acausal.training.optimizers.gradients import with_gauss_newton_hessian
 
 BATCH = 32
 """Points that are evaluated at once."""
@@ -286,7 +285,6 @@ class _Points:
 
     def __init__(self, objective: Problem, size: int) -> None:
         self.objective, self.size = objective, size
-        self.forward = isinstance(objective.solver, EXPLICIT)
         self.batch = objective.draw(jax.random.key(0))
 
     def at(self, points: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -298,25 +296,21 @@ class _Points:
     def _batch(self, points: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         count = len(points)
         filled = np.stack([*points, *[points[-1]] * (BATCH - count)])
-        found = _evaluate(self.objective, self.batch, jnp.asarray(filled), self.forward)
+        found = _evaluate(self.objective, self.batch, jnp.asarray(filled))
         loss, gradient, hessian = map(np.asarray, found)
-        sound = np.isfinite(loss)
-        if self.forward:
-            sound &= np.isfinite(hessian).all(axis=(1, 2)) & np.isfinite(gradient).all(axis=1)
+        sound = np.isfinite(loss) & np.isfinite(gradient).all(axis=1)
+        sound &= np.isfinite(hessian).all(axis=(1, 2))
         return np.where(sound, loss, np.inf)[:count], gradient[:count], hessian[:count]
 
 
 @compiled
 def _evaluate(
-    objective: Problem, batch: Any, points: Float[Array, "n P"], forward: bool
+    objective: Problem, batch: Any, points: Float[Array, "n P"]
 ) -> tuple[Array, Array, Array]:
-    """Losses, gradients and Hessians; the derivatives are zero for steps that have none in forward mode."""
+    """Losses, gradients and Hessians."""
     _, unravel = ravel_pytree(objective.start())
 
     def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
-        if not forward:
-            loss = total(objective, unravel(point), batch)[0]
-            return loss, jnp.zeros_like(point), jnp.zeros((point.size, point.size))
         found = with_gauss_newton_hessian(objective, unravel(point), batch)
         assert found.hessian is not None
         return found.total, ravel_pytree(found.gradient)[0], found.hessian
