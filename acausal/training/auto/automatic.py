@@ -163,10 +163,11 @@ def automatic(
     if shapes:
         start = with_constants_at_zero(start, shapes, {n: laws[n][0] for n in shapes})
         laws = _scales(start, shapes, explains)
+    at_zero = {n for n in start.loose if shapes[n].every == 1}
     new = tuple(
         {
             **own,
-            **{n: with_scales(own[n], *laws[n], without_constant=n in start.loose) for n in shapes},
+            **{n: with_scales(own[n], *laws[n], without_constant=n in at_zero) for n in shapes},
         }
         for own in params
     )

@@ -77,7 +77,7 @@ class LinearStart:
         loss: over the records.
         problem, trainable: for what else is asked.
         hessian: of the loss, by all that is trained.
-        loose: networks whose constant nothing determines, and which vanish at zero for that reason.
+        loose: networks whose constant nothing determines; those of one input vanish at zero for that reason.
         title: what it is of.
     """
 
@@ -138,7 +138,7 @@ def with_constants_at_zero(
 
     A current through a coil whose start is not measured does for a constant of the current beside it, and a force of
     one law for that of another one. So the constant is known less well than the law is large, and without it the loss
-    and the starts are as good as with it.
+    and the starts are as good as with it. Laws of several inputs, at which zero says little, keep theirs.
 
     Arguments:
         start: from `linear_start`. shapes: as there. scales: of the laws, by network.
@@ -149,9 +149,10 @@ def with_constants_at_zero(
     while rest and np.isfinite(start.loss):
         known = _covariance(start, held)
         sigma = {n: _deviation(known, places[n], shapes[n], scales[n]) for n in rest}
-        name = max(rest, key=lambda n: sigma[n] / scales[n].output)
-        if sigma[name] < LOOSE * scales[name].output:
+        unknown = {n: s for n in rest if (s := sigma[n] / scales[n].output) >= LOOSE}
+        if not unknown:
             break
+        name = max(unknown, key=lambda n: (shapes[n].every == 1, unknown[n]))
         rest.remove(name)
         point = np.array(ravel_pytree(start.trainable)[0])
         trial = [*held, places[name][-1]]
@@ -161,14 +162,15 @@ def with_constants_at_zero(
         again = replace(_linear(objective, shapes, point, loss, hessian), title=start.title)
         nats, rise = _nats(again) - _nats(start), loss / start.loss - 1
         if nats < LIKELY and rise < LITTLE:
-            held, loose, start = trial, [*loose, name], again
+            loose.append(name)
+            if shapes[name].every == 1:
+                held, start = trial, again
     return replace(start, loose=tuple(n for n in shapes if n in loose))
 
 
 def _has_constant(shape: LawShape) -> bool:
-    """Whether a law has a constant that can be subtracted from it."""
-    open_ = not shape.through_zero and not shape.energy and not shape.positive
-    return open_ and shape.every == 1
+    """Whether a law has a constant."""
+    return not shape.through_zero and not shape.energy and not shape.positive
 
 
 def _covariance(start: LinearStart, held: Sequence[int]) -> np.ndarray:
