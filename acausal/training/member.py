@@ -14,6 +14,7 @@ from jaxtyping import Array, Float, PRNGKeyArray, PyTree
 from acausal.training.happened import events_in
 from acausal.training.history import History, TrainingLog
 from acausal.training.objective.held_out import HeldOut
+from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 
@@ -122,6 +123,10 @@ class Member:
         if best.validation is not None or self.problem.prior is None:
             return best.score
         return float(self.problem.weighed(jnp.asarray(best.loss), best.trainable))
+
+    def noise(self) -> float:
+        """The loss that the noise alone leaves, as the best state has it."""
+        return noise_loss(self.problem.records, self.best.simulated.y)
 
     def evaluations_without_improvement(self) -> int:
         """How many evaluations there were in this part of the strategy since the best one."""

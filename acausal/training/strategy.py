@@ -47,7 +47,7 @@ class Stage(NamedTuple):
         rows: of windows that lie side by side and start from measured states; of whole records, the first ones;
             ``None`` for what the options say, or for all.
         descent: whether windows are trained by L-BFGS, all at once.
-        above: it is left out where the loss over the whole record is not above.
+        above: it is left out where the loss over the whole record is not above so many times that of the noise.
         onward: whether the next part goes on from its end, and not from the best over the whole record.
         gain: it ends when an evaluation is not better by this part than the one before.
         every: updates between two evaluations, where the options do not say; ``None`` for a tenth of its updates.
@@ -58,7 +58,7 @@ class Stage(NamedTuple):
     title: str = ""
     rows: int | None = None
     descent: bool = False
-    above: float = -math.inf
+    above: float = 0.0
     onward: bool = False
     gain: float = 0.0
     every: int | None = None

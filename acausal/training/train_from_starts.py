@@ -130,7 +130,7 @@ def _in_steps(training: Training, step: StepChoice) -> Training:
     """The last part of a training once more, in other steps."""
     assert training.automatic is not None
     last = training.automatic.stages[-1]
-    stage = last._replace(title="whole record, finer steps", above=-np.inf)
+    stage = last._replace(title="whole record, finer steps", above=0.0)
     problem, held = step.over(training.problem), training.held
     return replace(
         training,

@@ -159,7 +159,8 @@ class TrainingRun:
 
     def can_skip(self, i: int) -> bool:
         """Whether all trainings are good enough to leave a segment out."""
-        return all(m.best.loss <= self.segments[i].stage.above for m in self.members)
+        above = self.segments[i].stage.above
+        return above > 0 and all(m.best.loss <= above * m.noise() for m in self.members)
 
     def _begin(self, i: int, entries: Sequence[Trainable]) -> State:
         segment = self.segments[i]

@@ -1,5 +1,6 @@
 """A model, a record and no options: the law comes out, or the fit says that it did not."""
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from unittest.mock import ANY
@@ -258,6 +259,16 @@ def test_noise_is_found_beside_a_smooth_signal() -> None:
     problem = trained().problem
     (noise,) = noise_of(problem.records)
     assert noise / float(problem.records.sigma[0]) == pytest.approx(0.01, rel=0.25)
+
+
+def test_noise_is_found_beside_jumps_that_a_model_explains() -> None:
+    problem, trainable = trained().problem, trained().trained
+    records, (sigma,) = problem.records, np.asarray(problem.records.sigma)
+    jumps = sigma * (np.arange(len(records)) // 5 % 2)[:, None]
+    jumping = replace(records, y=records.y + jumps)
+    assert noise_of(jumping)[0] > 0.1 * sigma
+    (noise,) = noise_of(jumping, problem.simulate(trainable).y + jumps)
+    assert noise / sigma == pytest.approx(0.01, rel=0.25)
 
 
 SHORT = ["friction, acceleration", "circuit in microseconds", "motor's load"]

@@ -1,6 +1,8 @@
 """Linear laws in the place of networks, before the training of these."""
 
 from pathlib import Path
+from typing import Any
+from unittest.mock import ANY
 
 import jax.numpy as jnp
 import numpy as np
@@ -25,13 +27,14 @@ from acausal.networks import (
     networks,
     with_scales,
 )
-from acausal.training.auto.automatic import _stages
+from acausal.training.auto.automatic import _scales_of, _stages
 from acausal.training.auto.linear_start import (
     LinearStart,
     linear_module,
     linear_start,
     with_constants_at_zero,
 )
+from acausal.training.auto.step_choice import StepChoice, tried_steps
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
 from acausal.training.options import FitOptions
@@ -59,6 +62,37 @@ def start_of(problem: Problem) -> LinearStart:
 
 def element() -> ac.Component:
     return neural.Resistance(el.PositivePin, width=4, depth=1)
+
+
+@pytest.mark.parametrize("solver", ["rk4", "kvaerno3"])
+def test_a_linear_law_is_found_closer_than_its_decade(solver: str) -> None:
+    """By Gauss-Newton, in implicit steps, too."""
+    circuit = Wired(
+        [("source.p", "element.p"), ("element.n", "capacitor.p"), ("capacitor.n", "source.n", "ground.p")],
+        source=el.SignalVoltage(), element=element(), capacitor=el.Capacitor(C=1e-6), ground=el.Ground(),
+    )  # fmt: skip
+    v = np.zeros(len(T))
+    for k, h in enumerate(np.diff(T)):  # exact for the mean voltage of a sample
+        mean = (VOLTS[k] + VOLTS[k + 1]) / 2
+        v[k + 1] = mean + (v[k] - mean) * np.exp(-h / 2e-3)
+    problem = problem_of(circuit, "capacitor.v", **{"source.v": VOLTS, "capacitor.v": v})
+    found = start_of(StepChoice(solver).over(problem))
+    assert found.loss < 0.01
+    assert found.laws["element.net"].slope[0] == pytest.approx(5e-4, rel=0.01)
+
+
+def test_a_law_counts_by_what_is_usual_not_by_peaks() -> None:
+    seen = np.concatenate([np.linspace(-1.0, 1.0, 999), [50.0]])[:, None]
+    nothing, shape = Affine((1.0,), 0.0), linear_shape(Law()(0))
+    (reach,) = _scales_of(seen, nothing, nothing, shape)[0].reach
+    assert reach == pytest.approx(50.0 / 4)
+    (reach,) = _scales_of(seen[:-1], nothing, nothing, shape)[0].reach
+    assert reach == pytest.approx(np.sqrt(1 / 3), rel=0.01)
+
+
+def test_models_with_events_begin_in_implicit_steps() -> None:
+    assert list(tried_steps(FitOptions(), events=True)) == [StepChoice("kvaerno3", 1, ANY)]
+    assert next(tried_steps(FitOptions(), events=False)).solver == "rk4"
 
 
 @pytest.mark.slow
@@ -115,23 +149,31 @@ def test_a_constant_that_nothing_determines_is_left_out() -> None:
     assert law.slope[0] == pytest.approx(5e-3, rel=0.02)
 
 
-def test_of_two_laws_that_share_a_constant_one_has_none() -> None:
+@pytest.mark.parametrize("inputs", [1, 2])
+def test_of_two_laws_that_share_a_constant_one_has_none(inputs: int) -> None:
     fine = np.linspace(0.0, T[-1], 100 * (len(T) - 1) + 1)
     push, x = np.interp(fine, T, VOLTS), np.zeros((len(fine), 2))
     for k, h in enumerate(np.diff(fine)):  # Euler
         s, v = x[k]
         x[k + 1] = s + h * v, v + h / 1e-3 * (push[k] - 2.0 * v - 3e3 * s - 0.5)
     signals = {"push.f": VOLTS, "mass.s": x[::100, 0], "mass.v": x[::100, 1]}
+    given: dict[str, Any] = {"width": 4, "depth": 1, "secondary": ["T"][: inputs - 1]}
+    if inputs == 2:
+        signals |= {"spring.T": 20 + 1e3 * T, "damper.T": 20 + np.cos(900 * T)}
     sprung = Wired(
         [("wall.flange", "spring.flange_a", "damper.flange_a"),
          ("spring.flange_b", "damper.flange_b", "mass.flange_a"), ("mass.flange_b", "push.flange")],
-        wall=tl.Fixed(), spring=neural.Compliance(width=4, depth=1), damper=neural.Resistance(width=4, depth=1),
+        wall=tl.Fixed(), spring=neural.Compliance(**given), damper=neural.Resistance(**given),
         mass=tl.Mass(m=1e-3), push=tl.Force(),
     )  # fmt: skip
     start = start_of(problem_of(sprung, "mass.s", **signals))
-    shapes = {n: linear_shape(Law()(0)) for n in start.laws}
-    scales = {n: Scales((0.0,), (1.0,), 1.0) for n in shapes}
+    shapes = {n: linear_shape(Law(secondary=inputs - 1)(0)) for n in start.laws}
+    scales = {n: Scales((0.0, 20.0)[:inputs], (1.0, 1.0)[:inputs], 1.0) for n in shapes}
     kept = with_constants_at_zero(start, shapes, scales)
+    if inputs == 2:  # of several inputs, laws keep their constants, and both are named
+        assert set(kept.loose) == set(shapes)
+        assert kept.laws == start.laws
+        return
     assert len(kept.loose) == 1
     assert sum(law.offset for law in kept.laws.values()) == pytest.approx(0.5, rel=0.05)
 

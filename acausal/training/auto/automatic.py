@@ -30,6 +30,9 @@ from acausal.training.strategy import EVALUATIONS, Stage
 if TYPE_CHECKING:
     from acausal.system import System
 
+PEAK = 4.0
+"""A law's argument counts by its standard deviation: peaks are rare. They are so many times as large at most."""
+
 MOST = 4000
 """Rows of the part of the records in which the linear start is sought."""
 
@@ -69,7 +72,6 @@ class Automatic:
         stages: what to do.
         step: of the integration; ``None`` where the user has said anything of it.
         linear: the linear start; ``None`` where no network lacks scales.
-        noise: the loss that the noise alone leaves; ``None`` where the loss is no root mean square.
         not_laws: networks that are no laws of the library, which are trained from where they are.
     """
 
@@ -78,7 +80,6 @@ class Automatic:
     stages: tuple[Stage, ...]
     step: StepChoice | None
     linear: LinearStart | None
-    noise: float | None
     not_laws: tuple[str, ...]
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
@@ -130,7 +131,7 @@ def automatic(
     rows = int(np.median([len(data) for data in records.values()]))
     level = EXPLAINS * np.sqrt(len(targets))
     step, start, explains, begun = StepChoice(None), None, False, max(2 * PIECE, rows // 16)
-    for trial in tried_steps(options):
+    for trial in tried_steps(options, system.events is not None):
         found = _start(problem_of(part, trial), shapes)
         if start is None or found.loss < 0.8 * start.loss:
             step, start, explains = trial, found, found.loss < level
@@ -162,17 +163,18 @@ def automatic(
     if shapes:
         start = with_constants_at_zero(start, shapes, {n: laws[n][0] for n in shapes})
         laws = _scales(start, shapes, explains)
+    at_zero = {n for n in start.loose if shapes[n].every == 1}
     new = tuple(
         {
             **own,
-            **{n: with_scales(own[n], *laws[n], without_constant=n in start.loose) for n in shapes},
+            **{n: with_scales(own[n], *laws[n], without_constant=n in at_zero) for n in shapes},
         }
         for own in params
     )
     settled = step.of(options, records)
     stages = _stages(start.problem, rows, begun, new[0], names, explains, noise, options)
     free = None if step.solver is None or options.dt is not None else step
-    return Automatic(settled, new, stages, free, start if shapes else None, noise, fixed)
+    return Automatic(settled, new, stages, free, start if shapes else None, fixed)
 
 
 def _start(problem: Problem, shapes: dict[str, LawShape]) -> LinearStart:
@@ -252,18 +254,14 @@ def _scales(
 def _scales_of(
     seen: np.ndarray, law: Affine, sensitive: Affine, shape: LawShape
 ) -> tuple[Scales, Affine]:
-    low, high = (
-        (seen.min(axis=0), seen.max(axis=0))
-        if len(seen)
-        else (-np.ones(shape.every), np.ones(shape.every))
-    )
-    middle, reach = (low + high) / 2, (high - low) / 2
-    reach = np.where(reach > 1e-9 * np.abs(middle), reach, np.maximum(np.abs(middle), 1.0))
-    centre = np.where(np.abs(middle) > 0.3 * reach, middle, 0.0)
-    reach = np.where(centre == 0.0, np.maximum(np.abs(low), np.abs(high)), reach)
-    reach = np.where(reach > 0, reach, 1.0)
-    n = shape.inputs
-    values = law.offset + (seen[:, :n] @ np.asarray(law.slope) if len(seen) else np.zeros(1))
+    seen = seen if len(seen) else np.stack([-np.ones(shape.every), np.ones(shape.every)])
+    low, high, mean = seen.min(axis=0), seen.max(axis=0), seen.mean(axis=0)
+    half = (high - low) / 2
+    half = np.where(half > 1e-9 * np.abs(mean), half, np.maximum(np.abs(mean), 1.0))
+    centre = np.where(np.abs(mean) > 0.3 * half, mean, 0.0)
+    far = np.maximum(np.maximum(high - centre, centre - low), half)
+    reach = np.maximum(np.sqrt(np.mean((seen - centre) ** 2, axis=0)), far / PEAK)
+    values = law.offset + seen[:, : shape.inputs] @ np.asarray(law.slope)
     size = float(np.std(values))
     left = [s * r for s, r in zip(sensitive.slope, reach, strict=False)] + [sensitive.offset]
     wide = min((s for s in left if np.isfinite(s) and s > 0), default=0.0)
@@ -290,7 +288,7 @@ def _stages(
     kind = "gauss_newton" if few else "whole_record"
     usual = options.epochs is None
     epochs = UPDATES[kind] if usual else options.updates[0]
-    enough = -np.inf if noise is None else GOOD * noise
+    enough = 0.0 if noise is None else GOOD
     gain = min(GAIN, NATS / float(np.sum(np.asarray(problem.records.weight) > 0)))
     whole = Stage(kind, epochs, gain=gain, title="whole record")
     more = whole._replace(epochs=LONGER * epochs, every=epochs // EVALUATIONS, above=enough)

@@ -19,11 +19,10 @@ from jaxtyping import Array, Float
 
 from acausal._jax import compiled
 from acausal.networks import Affine, BesideLinear, BesideQuadratic, LawShape, Scales
-from acausal.simulation import EXPLICIT
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.objective.whole_record import over_whole_record
-from acausal.training.optimizers.gradients import total, with_gauss_newton_hessian
+from acausal.training.optimizers.gradients import with_gauss_newton_hessian
 
 BATCH = 32
 """Points that are evaluated at once."""
@@ -78,7 +77,7 @@ class LinearStart:
         loss: over the records.
         problem, trainable: for what else is asked.
         hessian: of the loss, by all that is trained.
-        loose: networks whose constant nothing determines, and which vanish at zero for that reason.
+        loose: networks whose constant nothing determines; those of one input vanish at zero for that reason.
         title: what it is of.
     """
 
@@ -139,7 +138,7 @@ def with_constants_at_zero(
 
     A current through a coil whose start is not measured does for a constant of the current beside it, and a force of
     one law for that of another one. So the constant is known less well than the law is large, and without it the loss
-    and the starts are as good as with it.
+    and the starts are as good as with it. Laws of several inputs, at which zero says little, keep theirs.
 
     Arguments:
         start: from `linear_start`. shapes: as there. scales: of the laws, by network.
@@ -150,9 +149,10 @@ def with_constants_at_zero(
     while rest and np.isfinite(start.loss):
         known = _covariance(start, held)
         sigma = {n: _deviation(known, places[n], shapes[n], scales[n]) for n in rest}
-        name = max(rest, key=lambda n: sigma[n] / scales[n].output)
-        if sigma[name] < LOOSE * scales[name].output:
+        unknown = {n: s for n in rest if (s := sigma[n] / scales[n].output) >= LOOSE}
+        if not unknown:
             break
+        name = max(unknown, key=lambda n: (shapes[n].every == 1, unknown[n]))
         rest.remove(name)
         point = np.array(ravel_pytree(start.trainable)[0])
         trial = [*held, places[name][-1]]
@@ -162,14 +162,15 @@ def with_constants_at_zero(
         again = replace(_linear(objective, shapes, point, loss, hessian), title=start.title)
         nats, rise = _nats(again) - _nats(start), loss / start.loss - 1
         if nats < LIKELY and rise < LITTLE:
-            held, loose, start = trial, [*loose, name], again
+            loose.append(name)
+            if shapes[name].every == 1:
+                held, start = trial, again
     return replace(start, loose=tuple(n for n in shapes if n in loose))
 
 
 def _has_constant(shape: LawShape) -> bool:
-    """Whether a law has a constant that can be subtracted from it."""
-    open_ = not shape.through_zero and not shape.energy and not shape.positive
-    return open_ and shape.every == 1
+    """Whether a law has a constant."""
+    return not shape.through_zero and not shape.energy and not shape.positive
 
 
 def _covariance(start: LinearStart, held: Sequence[int]) -> np.ndarray:
@@ -286,7 +287,6 @@ class _Points:
 
     def __init__(self, objective: Problem, size: int) -> None:
         self.objective, self.size = objective, size
-        self.forward = isinstance(objective.solver, EXPLICIT)
         self.batch = objective.draw(jax.random.key(0))
 
     def at(self, points: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -298,25 +298,21 @@ class _Points:
     def _batch(self, points: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         count = len(points)
         filled = np.stack([*points, *[points[-1]] * (BATCH - count)])
-        found = _evaluate(self.objective, self.batch, jnp.asarray(filled), self.forward)
+        found = _evaluate(self.objective, self.batch, jnp.asarray(filled))
         loss, gradient, hessian = map(np.asarray, found)
-        sound = np.isfinite(loss)
-        if self.forward:
-            sound &= np.isfinite(hessian).all(axis=(1, 2)) & np.isfinite(gradient).all(axis=1)
+        sound = np.isfinite(loss) & np.isfinite(gradient).all(axis=1)
+        sound &= np.isfinite(hessian).all(axis=(1, 2))
         return np.where(sound, loss, np.inf)[:count], gradient[:count], hessian[:count]
 
 
 @compiled
 def _evaluate(
-    objective: Problem, batch: Any, points: Float[Array, "n P"], forward: bool
+    objective: Problem, batch: Any, points: Float[Array, "n P"]
 ) -> tuple[Array, Array, Array]:
-    """Losses, gradients and Hessians; the derivatives are zero for steps that have none in forward mode."""
+    """Losses, gradients and Hessians."""
     _, unravel = ravel_pytree(objective.start())
 
     def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
-        if not forward:
-            loss = total(objective, unravel(point), batch)[0]
-            return loss, jnp.zeros_like(point), jnp.zeros((point.size, point.size))
         found = with_gauss_newton_hessian(objective, unravel(point), batch)
         assert found.hessian is not None
         return found.total, ravel_pytree(found.gradient)[0], found.hessian

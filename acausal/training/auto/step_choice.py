@@ -61,14 +61,22 @@ def allowed_error(loss: float) -> float:
     return SHARE * max(loss, LEAST)
 
 
-def tried_steps(options: FitOptions) -> Iterator[StepChoice]:
-    """The steps with which a start is sought, until one explains something."""
+def tried_steps(options: FitOptions, events: bool) -> Iterator[StepChoice]:
+    """The steps with which a start is sought, until one explains something.
+
+    In a model with events they are implicit: what it switches is often stiff, as an ideal diode that blocks is, and
+    explicit steps would stumble from event to event.
+
+    Arguments:
+        options: those of the user. events: whether the model has any.
+    """
     given = (options.solver, options.rtol, options.atol)
     if any(value is not None for value in given):
         yield StepChoice(None)
         return
-    yield StepChoice("rk4")
-    if options.dt is None:
+    if not events:
+        yield StepChoice("rk4")
+    if events or options.dt is None:
         yield StepChoice("kvaerno3")
 
 
@@ -84,6 +92,14 @@ def chosen_steps(
         return step
     allowed = allowed_error(noise or 0.0)
     coarse = np.asarray(problem.simulate(trainable).y)
+
+    def rough(solver: str, exact: np.ndarray) -> float:
+        scheme = for_fixed_steps(solver_named(solver, fixed=False))
+        found = replace(problem, solver=scheme).simulate(trainable)
+        return difference(problem, np.asarray(found.y), exact)
+
+    if problem.system.events is not None and (error := rough("rk4", coarse)) <= allowed:
+        return StepChoice("rk4", 1, error)
     fine = np.asarray(replace(problem, substeps=2 * problem.substeps).simulate(trainable).y)
     error = difference(problem, coarse, fine)
     if not np.isfinite(error):
@@ -93,13 +109,9 @@ def chosen_steps(
         parts = int(np.ceil((error / allowed) ** (1 / order)))
         parts = min(1 << (parts - 1).bit_length(), FINEST)
         return StepChoice(step.solver, parts, error / parts**order)
-    if len(problem.records) >= MANY // 4 and step.solver == "rk4" and options.dt is None:
-        heun = for_fixed_steps(solver_named("heun", fixed=False))
-        rough = difference(
-            problem, np.asarray(replace(problem, solver=heun).simulate(trainable).y), fine
-        )
-        if rough <= allowed:
-            return StepChoice("heun", 1, rough)
+    long = len(problem.records) >= MANY // 4 and step.solver == "rk4"
+    if long and (of_heun := rough("heun", fine)) <= allowed:
+        return StepChoice("heun", 1, of_heun)
     return step._replace(error=error)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.errors import listing
+from acausal.networks import OffsetCorrected
 from acausal.simulation import EXPLICIT
 from acausal.training.auto.step_choice import allowed_error, difference
 from acausal.training.objective.losses import LOSSES, noise_loss
@@ -67,7 +68,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     problem = fit.problem
     if problem.loss is not LOSSES["nrmse"]:
         return None
-    noise, level = noise_loss(problem.records), np.sqrt(len(problem.targets))
+    predicted = problem.simulate(fit.trained).y
+    noise, level = noise_loss(problem.records, predicted), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
     down = fit.loss <= DOWN_TO * noise
@@ -94,7 +96,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
         )
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
     if fit.without_constant:
-        others.append(_constants(fit))
+        others += _constants(fit)
     if fit.not_laws:
         names = ", ".join(fit.not_laws)
         others.append(
@@ -160,7 +162,7 @@ def _parameters(fit: TrainedModel) -> str | None:
     )
 
 
-def _constants(fit: TrainedModel) -> str:
+def _constants(fit: TrainedModel) -> Iterator[str]:
     """What would determine the constants that nothing determines."""
     missing = np.isnan(np.asarray(fit.problem.first_states.given))
     unknown = [n for n, column in zip(fit.system.states, missing.T, strict=True) if column.any()]
@@ -169,10 +171,14 @@ def _constants(fit: TrainedModel) -> str:
         if unknown
         else "say which of several laws vanishes at zero (zero_crossing=...)"
     )
-    return (
-        f"No record determines the constant of {listing(fit.without_constant)}: it is taken as zero at zero. "
-        f"To find it, {remedy}."
-    )
+    zero = [n for n in fit.without_constant if isinstance(fit.params[n], OffsetCorrected)]
+    kept = [n for n in fit.without_constant if n not in zero]
+    for names, so in (
+        (zero, "it is taken as zero at zero"),
+        (kept, "what came out is one of many"),
+    ):
+        if names:
+            yield f"No record determines the constant of {listing(names)}: {so}. To find it, {remedy}."
 
 
 def _ranges(fit: TrainedModel) -> Iterator[str]:

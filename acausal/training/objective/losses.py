@@ -52,19 +52,30 @@ def root(square: Float[Array, ""]) -> Float[Array, ""]:
     return jnp.sqrt(jnp.maximum(square, jnp.finfo(square.dtype).tiny))
 
 
-def noise_of(records: Records) -> Float[np.ndarray, " n_targets"]:
-    """By target, the standard deviation of white noise in its samples; at most, where there is other noise."""
+def noise_of(
+    records: Records, predicted: Float[Array, "N n_targets"] | None = None
+) -> Float[np.ndarray, " n_targets"]:
+    """By target, the standard deviation of white noise in its samples; at most, where there is other noise.
+
+    Jumps and kinks of a target look like noise. With the predictions of a model, the residuals count where they have
+    less of it: they lack the jumps that the model explains.
+    """
     measured, of = records.measured, np.asarray(records.of)
-    pieces = [measured[of == k] for k in range(records.count)]
-    times = [np.asarray(records.steps.t)[of == k] for k in range(records.count)]
-    return np.array(
-        [noise_level([piece[:, i] for piece in pieces], times) for i in range(measured.shape[1])]
-    )
+    rows = [of == k for k in range(records.count)]
+    times = [np.asarray(records.steps.t)[own] for own in rows]
+
+    def level(signal: Float[np.ndarray, " N"]) -> float:
+        return noise_level([signal[own] for own in rows], times)
+
+    found = np.array([level(signal) for signal in measured.T])
+    if predicted is None or not np.isfinite(np.asarray(predicted)).all():
+        return found
+    return np.minimum(found, [level(left) for left in (measured - np.asarray(predicted)).T])
 
 
-def noise_loss(records: Records) -> float:
+def noise_loss(records: Records, predicted: Float[Array, "N n_targets"] | None = None) -> float:
     """The loss of a model that leaves nothing but this noise, for losses that are root mean squares."""
-    return float(np.sqrt(np.sum((noise_of(records) / np.asarray(records.sigma)) ** 2)))
+    return float(np.sqrt(np.sum((noise_of(records, predicted) / np.asarray(records.sigma)) ** 2)))
 
 
 def number(what: str, function: Callable[..., object], *arguments: object) -> Float[Array, ""]:
