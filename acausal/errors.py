@@ -8,6 +8,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
+from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -152,6 +153,21 @@ def need_whole(
         return operator.index(given)
     enough = "" if least is None else f", {least} or more"
     raise error(f"{argument}={shown(given)}; give a whole number{enough}.")
+
+
+def need_package(name: str, what: str, extra: str, error: type[AcausalError] = DataError) -> Any:
+    """An optional package, or a module of it, that an extra of acausal installs.
+
+    Raises:
+        AcausalError: of the class ``error``, where it is not installed, with the command that installs it.
+    """
+    package = name.partition(".")[0]
+    try:
+        return import_module(name)
+    except ImportError as missing:
+        if missing.name and missing.name.partition(".")[0] != package:
+            raise
+        raise error(f"{what} needs {package}: pip install 'acausal[{extra}]'.") from None
 
 
 def need_flag(given: Any, argument: str, error: type[AcausalError] = DataError) -> bool:

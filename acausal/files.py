@@ -5,8 +5,10 @@ A file that exists is replaced; `new_file` refuses it for functions with an argu
 
 from __future__ import annotations
 
+import csv
 import errno
 import glob
+import io
 import logging
 import os
 import platform
@@ -17,7 +19,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from acausal.errors import AcausalError, DataError, need_flag, reason, shown
 
@@ -255,3 +257,16 @@ def _sync(folder: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def csv_text(columns: Mapping[str, Any], end: str = "\r\n") -> str:
+    """Arrays of one length by header, as text that spreadsheets read.
+
+    Arguments:
+        end: of a line.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator=end)
+    writer.writerow(columns)
+    writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
+    return text.getvalue()

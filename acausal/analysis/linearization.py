@@ -17,7 +17,7 @@ from acausal._jax import check_time, is_real
 from acausal.analysis.operating_point import OperatingPoint
 from acausal.analysis.tracking import numbers_by_name
 from acausal.codegen import Values
-from acausal.errors import DataError, cut_short, need_compiled, shown
+from acausal.errors import DataError, cut_short, need_compiled, need_package, shown
 from acausal.modeling import names_in
 
 if TYPE_CHECKING:
@@ -247,10 +247,7 @@ class Linearization:
         Raises:
             DataError: if python-control is not installed.
         """
-        try:
-            from control import StateSpace
-        except ImportError:
-            raise DataError("This needs python-control: pip install 'acausal[control]'.") from None
+        StateSpace = need_package("control", "to_control", "control").StateSpace
         names = {
             kind: [name.replace(".", "_") for name in given]
             for kind, given in (

@@ -17,7 +17,7 @@ from acausal.drawing.facing import Faced
 from acausal.drawing.placed import Placed, PlacedBox, PlacedNet, Rect
 from acausal.drawing.scheme import Box, End, Net, Scheme
 from acausal.drawing.sizes import Size, hangs, size_of
-from acausal.errors import AcausalError
+from acausal.errors import AcausalError, need_package
 from acausal.modeling import Side
 
 NODE = 4.0
@@ -242,14 +242,7 @@ class Question:
 
 
 def _call(graph: dict[str, Any], options: dict[str, Any], *, stays: bool) -> dict[str, Any]:
-    try:
-        import graphlay
-    except ModuleNotFoundError as error:
-        if error.name != "graphlay":
-            raise
-        raise AcausalError(
-            "Drawing a model needs graphlay: pip install 'acausal[diagram]'."
-        ) from None
+    graphlay = need_package("graphlay", "Drawing a model", "diagram", AcausalError)
     work = graphlay.reroute if stays else graphlay.layout
     return json.loads(work(graph, options=options).to_json())
 

@@ -12,8 +12,7 @@ import numpy as np
 from jax import Array
 
 from acausal._jax import Equation, bind, name_of, need_double_precision, scan_of
-from acausal.errors import DataError
-from acausal.export.needs import need_package
+from acausal.errors import DataError, need_package
 from acausal.export.target import target_of, traced
 from acausal.export.traced import SAME, walk
 from acausal.system import System
@@ -48,7 +47,7 @@ def casadi(
             loop), an unknown name, or if the package casadi is not installed.
     """
     need_double_precision()
-    need_package("casadi", "casadi", "mpc")
+    need_package("casadi", "export.casadi", "mpc")
     import casadi
 
     ca: Any = casadi

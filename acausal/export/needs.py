@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any
 
 from acausal.errors import DataError, ExportError, need_compiled, shown
@@ -39,18 +38,3 @@ def all_parameters(system: System, params: Mapping[str, Any] | None) -> dict[str
     system.pack(params)
     system.layout.need_modules(params)
     return {**{name: own[name] for name in system.layout.names}, **params}
-
-
-def need_package(name: str, function: str, extra: str = "export") -> None:
-    """Refuse to go on without an optional package, which an extra of acausal installs.
-
-    Raises:
-        DataError: where it is not installed, with the command that installs it.
-    """
-    try:
-        import_module(name)
-    except ImportError:
-        raise DataError(
-            f"export.{function} needs the package '{name.partition('.')[0]}'; "
-            f"install it: pip install 'acausal[{extra}]'"
-        ) from None

@@ -11,7 +11,7 @@ from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
 from acausal.analysis import Observer
-from acausal.export.needs import need_package
+from acausal.errors import need_package
 from acausal.export.target import Target, target_of, traced
 from acausal.files import new_file, write_files
 from acausal.system import System
@@ -64,7 +64,7 @@ def onnx(
     need_double_precision()
     real = precision(dtype)
     file = new_file(path, "export.onnx", overwrite)
-    need_package("onnx", "onnx")
+    need_package("onnx", "export.onnx", "export")
     from acausal.export.onnx_text import model_of
 
     target = target_of(model, params, network, inputs, outputs, units, parameters, "onnx")

@@ -14,8 +14,7 @@ from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
 from acausal.analysis import Observer
-from acausal.errors import DataError, nearest, shown
-from acausal.export.needs import need_package
+from acausal.errors import DataError, nearest, need_package, shown
 from acausal.export.target import Target, arguments, target_of
 from acausal.files import new_file, write_files
 from acausal.modeling import names_in
@@ -74,7 +73,7 @@ def stablehlo(
             f"export.stablehlo: the ending '{file.suffix}' is no form; end the path in {', '.join(FORMS)}"
         )
     if file.suffix == ".jax":
-        need_package("flatbuffers", "stablehlo")
+        need_package("flatbuffers", "export.stablehlo", "export")
     if not (isinstance(derivatives, int) and derivatives >= 0):
         raise DataError(
             f"export.stablehlo: derivatives={shown(derivatives)} is how often; give 0, 1 or 2"

@@ -10,7 +10,7 @@ from functools import cached_property
 from numbers import Integral
 from typing import Any, Literal
 
-from acausal.errors import DeclarationError, shortened, shown
+from acausal.errors import DeclarationError, need_package, shortened, shown
 from acausal.fmu.archive import DESCRIPTION, Folder
 from acausal.fmu.conversion import Conversion, conversion, definitions
 from acausal.modeling import element_names
@@ -150,14 +150,9 @@ def read_description(folder: Folder, file: object, values: Mapping[str, Any]) ->
         raise DeclarationError(
             f"FMU: the {DESCRIPTION} of '{file}' has entities or is not in UTF-8; it is not read."
         )
+    fmpy = need_package("fmpy.model_description", "FMU", "fmu", DeclarationError)
     try:
-        from fmpy.model_description import read_model_description
-    except ImportError:
-        raise DeclarationError(
-            "FMU needs the package 'fmpy'; install it: pip install 'acausal[fmu]'"
-        ) from None
-    try:
-        read = read_model_description(folder.path)
+        read = fmpy.read_model_description(folder.path)
         _resize(read, values)
         return _described(read, bool(DIRECTIONAL.search(content)))
     except DeclarationError:

@@ -50,7 +50,7 @@ from acausal.reporting.over_time import (
     plot_over_time as plot_over_time,
     plot_predictions as plot_predictions,
 )
-from acausal.reporting.plain_table import PlainTable as PlainTable
+from acausal.reporting.plain_table import PlainTable as PlainTable, aligned as aligned
 from acausal.reporting.plot import (
     GUIDE as GUIDE,
     LEARNED as LEARNED,

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from acausal.errors import AcausalError, DataError, shown
+from acausal.errors import AcausalError, DataError, need_package, shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,12 +22,7 @@ def new_axes(size: tuple[float, float], rows: int = 1) -> list[Axes]:
     Raises:
         AcausalError: if matplotlib is not installed.
     """
-    try:
-        from matplotlib import pyplot as plt
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] != "matplotlib":
-            raise
-        raise AcausalError("Drawing needs matplotlib: pip install 'acausal[plot]'.") from None
+    plt = need_package("matplotlib.pyplot", "Drawing", "plot", AcausalError)
     figure, grid = plt.subplots(
         rows, 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
     )

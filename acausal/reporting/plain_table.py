@@ -58,11 +58,7 @@ class PlainTable:
             ["", *self.columns],
             *([name, *self._texts(row)] for name, row in self.rows.items()),
         ]
-        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-        return "\n".join(
-            "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
-            for row in cells
-        )
+        return aligned(cells)
 
     def _repr_html_(self) -> str:
         head = "".join(f"<th>{escape(column)}</th>" for column in ("", *self.columns))
@@ -74,6 +70,13 @@ class PlainTable:
 
     def _texts(self, row: Row) -> Sequence[str]:
         return [cell_text(row[column]) for column in self.columns]
+
+
+def aligned(rows: Sequence[Sequence[str]], *, right: bool = False) -> str:
+    """Rows as text with columns below each other, to the left or to the right."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    side = str.rjust if right else str.ljust
+    return "\n".join("  ".join(map(side, row, widths)).rstrip() for row in rows)
 
 
 def cell_text(value: Any) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from acausal._jax import is_number
-from acausal.errors import AcausalError, DataError, nearest, need_compiled, shown
+from acausal.errors import AcausalError, DataError, nearest, need_compiled, need_package, shown
 from acausal.modeling import names_in
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
@@ -84,10 +84,7 @@ def sliders(
         raise DataError(
             f"sliders: t={shown(t)} is not a time; give it first, ac.sliders(system, 10.0, {shown(t)})."
         )
-    try:
-        import ipywidgets as widgets
-    except ModuleNotFoundError:
-        raise AcausalError("Sliders need ipywidgets: pip install 'acausal[notebook]'.") from None
+    widgets = need_package("ipywidgets", "sliders", "notebook", AcausalError)
     for argument, given in (("params", params), ("inputs", inputs)):
         if not isinstance(given, Mapping | None):
             raise DataError(f"{argument}={shown(given)} have no names; give values by name.")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -17,8 +15,8 @@ from jaxtyping import Array, Float
 
 from acausal._jax import compiled, select, traced
 from acausal.codegen import Packed, Values
-from acausal.errors import DataError, nearest
-from acausal.files import need_path, write_files
+from acausal.errors import DataError, nearest, need_package
+from acausal.files import csv_text, need_path, write_files
 from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.finite import warn_of_nonfinite
 from acausal.simulation.inputs import TimeFunction, evaluate_all
@@ -176,12 +174,7 @@ class Solution(ByName):
         Raises:
             DataError: if pandas is not installed.
         """
-        try:
-            import pandas as pd
-        except ImportError:
-            raise DataError(
-                "A data frame needs pandas: pip install 'acausal[dataframe]'."
-            ) from None
+        pd = need_package("pandas", "A data frame", "dataframe")
         return pd.DataFrame(self.to_dict(names)).set_index("time")
 
     def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
@@ -191,12 +184,7 @@ class Solution(ByName):
             DataError: for an unknown name, or if the file cannot be written.
         """
         path, columns = need_path(path, "to_csv"), self.to_dict(names)
-        units = map(self.unit, columns)
-        text = io.StringIO()
-        writer = csv.writer(text)
-        writer.writerow(f"{n} [{unit}]" for n, unit in zip(columns, units, strict=True))
-        writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
-        write_files({path: text.getvalue()})
+        write_files({path: csv_text({f"{n} [{self.unit(n)}]": c for n, c in columns.items()})})
 
     def to_xarray(self, names: Iterable[str] | None = None) -> Dataset:
         """An xarray Dataset of the variables (by default all) over ``time``, with their units as attributes.
@@ -204,10 +192,7 @@ class Solution(ByName):
         Raises:
             DataError: if xarray is not installed.
         """
-        try:
-            import xarray as xr
-        except ImportError:
-            raise DataError("A dataset needs xarray: pip install 'acausal[xarray]'.") from None
+        xr = need_package("xarray", "A dataset", "xarray")
         time, columns = np.asarray(self.t), self.to_dict(names)
         del columns["time"]
         variables = {n: ("time", c, {"units": self.unit(n)}) for n, c in columns.items()}

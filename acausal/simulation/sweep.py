@@ -21,6 +21,7 @@ from acausal.errors import (
     nearest,
     need_compiled,
     need_flag,
+    need_package,
     need_whole,
     shown,
     user_level,
@@ -127,10 +128,7 @@ class Sweep(ByName):
         Raises:
             DataError: if xarray is not installed.
         """
-        try:
-            import xarray as xr
-        except ImportError:
-            raise DataError("A dataset needs xarray: pip install 'acausal[xarray]'.") from None
+        xr = need_package("xarray", "A dataset", "xarray")
         chosen = self.runs.system.states if names is None else names_matching(names, self.names)
         axes = {n: (n if self.grid else VARIANT,) for n in self.over} | {"time": ("time",)}
         units = {n: self.unit(n) for n in axes}

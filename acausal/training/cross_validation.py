@@ -14,7 +14,7 @@ from acausal.data import RecordsLike, records_of
 from acausal.errors import TrainingError, need_compiled
 from acausal.files import need_path
 from acausal.pages import write_page
-from acausal.reporting import PageContent, table
+from acausal.reporting import PageContent, aligned, table
 from acausal.training.ensemble import Ensemble
 from acausal.training.member import Trained
 from acausal.training.objective.folds import Folds, LeftOut, judged_on, left_out
@@ -198,10 +198,7 @@ class CrossValidation:
         return [*rows, ("mean ± deviation", *map(_written, spreads))]
 
     def __repr__(self) -> str:
-        table = [self._header, *self._rows()]
-        widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-        lines = ["  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in table]
-        return "\n".join([self.summary(), *lines])
+        return f"{self.summary()}\n{aligned([self._header, *self._rows()], right=True)}"
 
 
 def _spread(values: Iterable[float]) -> Spread:

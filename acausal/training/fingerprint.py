@@ -27,7 +27,6 @@ import sympy as sp
 
 from acausal.data import Data, named_arrays
 from acausal.system import System
-from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Segment, Stage
@@ -47,7 +46,7 @@ def fingerprint(
     segments: Sequence[Segment],
     seeds: Sequence[int],
     others: Sequence[Trainable],
-    held: HeldOut | None,
+    held: Problem | None,
     data: Mapping[str, Data],
 ) -> dict[str, str]:
     """A digest of everything that determines the course of trainings, by argument of `acausal.fit`.
@@ -79,7 +78,7 @@ def fingerprint(
         "epochs": [segment.epochs for segment in segments],
         "evaluate_every": [segment.evaluate_every for segment in segments],
         "patience": [segment.patience for segment in segments],
-        "validation": held and (held.problem.records, held.problem.first_states),
+        "validation": held and (held.records, held.first_states),
         "optimizer": [_optimizer(segment) for segment in segments],
         "seed": seeds,
         "members": others,

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from acausal.errors import DataError, TrainingError, reason, user_level
+from acausal.errors import DataError, TrainingError, need_package, reason, user_level
 from acausal.files import need_path, replace_file
 from acausal.training.progress import Progress
 
@@ -113,14 +113,9 @@ class TensorBoardLog:
     """
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
-        try:
-            from tensorboardX import SummaryWriter
-        except ImportError as error:
-            raise TrainingError(
-                "TensorBoardLog needs tensorboardX: pip install 'acausal[tensorboard]'."
-            ) from error
+        board = need_package("tensorboardX", "TensorBoardLog", "tensorboard", TrainingError)
         self.folder = need_path(folder, "TensorBoardLog")
-        self._open: Callable[[int], Any] = lambda epoch: SummaryWriter(
+        self._open: Callable[[int], Any] = lambda epoch: board.SummaryWriter(
             str(self.folder), purge_step=epoch
         )
         self._writer: Any = None

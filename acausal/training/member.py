@@ -13,7 +13,6 @@ from jaxtyping import Array, Float, PRNGKeyArray, PyTree
 
 from acausal.training.happened import events_in
 from acausal.training.history import History, TrainingLog
-from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
@@ -95,7 +94,7 @@ class Member:
     best: Best
     before: int = 0
 
-    def __init__(self, problem: Problem, held: HeldOut | None, key: PRNGKeyArray) -> None:
+    def __init__(self, problem: Problem, held: Problem | None, key: PRNGKeyArray) -> None:
         self.problem, self.held, self.key = problem, held, key
         self.log = TrainingLog(problem.places, tuple(problem.regularizers), problem.modifiers.names)
 
@@ -114,7 +113,9 @@ class Member:
 
     def _evaluated(self, trainable: Trainable) -> Best:
         simulated = self.problem.simulate(trainable)
-        validation = None if self.held is None else _finite_or_inf(self.held.loss(trainable))
+        validation = (
+            None if self.held is None else _finite_or_inf(self.held.held_out_loss(trainable))
+        )
         loss = _finite_or_inf(simulated.loss)
         return Best(loss, validation, self.log.epochs, trainable, simulated)
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from acausal.errors import DataError, nearest
-from acausal.files import need_path, write_files
+from acausal.files import csv_text, need_path, write_files
 from acausal.pages import schematic, write_page
 from acausal.reporting import (
     PageContent,
@@ -87,11 +85,7 @@ class Prediction(RecordFit):
         for name, band in self.bands.items():
             sides = zip(("", " low", " high"), (band.law, *band.bounds), strict=True)
             columns |= {f"{name}{side} [{self.units[name]}]": y for side, y in sides}
-        text = io.StringIO()
-        writer = csv.writer(text)
-        writer.writerow(columns)
-        writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
-        write_files({path: text.getvalue()}, make_folders=True)
+        write_files({path: csv_text(columns)}, make_folders=True)
         return path
 
     def __repr__(self) -> str:

@@ -14,7 +14,7 @@ from acausal.modeling import names_in
 from acausal.training.auto.automatic import Automatic, automatic
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.folds import LeftOut, without
-from acausal.training.objective.held_out import HeldOut, hold_out, split
+from acausal.training.objective.held_out import hold_out, split
 from acausal.training.objective.initial_state import check_records
 from acausal.training.objective.prior import entry
 from acausal.training.objective.problem import Problem
@@ -44,7 +44,7 @@ class Training:
 
     problem: Problem
     records: dict[str, Data]
-    held: HeldOut | None
+    held: Problem | None
     segments: tuple[Segment, ...]
     options: FitOptions
     seeds: Sequence[int]

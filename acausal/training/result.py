@@ -19,7 +19,6 @@ from acausal.pages import write_page
 from acausal.reporting import PageContent, PlainTable
 from acausal.training.auto.verdict import Verdict, verdict
 from acausal.training.member import Trained
-from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
@@ -267,7 +266,7 @@ def _of_held_out(problem: Problem, trainable: Trainable) -> dict[str, RecordFit]
 def result(
     problem: Problem,
     trained: Trained,
-    held: HeldOut | None = None,
+    held: Problem | None = None,
     starts: Starts | None = None,
     settings: Mapping[str, str] | None = None,
     stages: tuple[StageResult, ...] = (),
@@ -290,7 +289,7 @@ def result(
         validation_loss=best.validation,
         best_epoch=best.epoch,
         records=records,
-        held_out={} if held is None else _of_held_out(held.problem, best.trainable),
+        held_out={} if held is None else _of_held_out(held, best.trainable),
         modifiers={n: float(value) for n, value in problem.changes(best.trainable).items()},
         arguments=arguments,
         seen={n: Seen(a.mean(axis=0), a.std(axis=0)) for n, a in arguments.items()},

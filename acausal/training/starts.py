@@ -14,6 +14,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.stats import qmc
 
 from acausal.errors import TrainingError
+from acausal.reporting import aligned
 from acausal.training.member import Trained
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
@@ -143,13 +144,7 @@ class Starts:
         return ("start", *(f"{n} there" for n in self.names), "loss reached", "updates", "finished")
 
     def __repr__(self) -> str:
-        table = [self.header, *self.rows()]
-        widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-        lines = [
-            "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
-            for row in table
-        ]
-        return "\n".join([self.summary(), *lines])
+        return f"{self.summary()}\n{aligned([self.header, *self.rows()], right=True)}"
 
 
 def spread_starts(problem: Problem, count: int, seed: int) -> list[Trainable]:

@@ -19,7 +19,6 @@ from acausal.training.auto.step_choice import StepChoice, finer_steps
 from acausal.training.auto.verdict import step_error
 from acausal.training.concerns import concerns
 from acausal.training.member import Trained
-from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.preparation import Training
 from acausal.training.result import Fit, result
@@ -32,7 +31,7 @@ LOGGER = logging.getLogger(__name__)
 
 def run(
     training: Training,
-    judged: HeldOut | None = None,
+    judged: Problem | None = None,
     prefix: str = "",
     trained: tuple[Trained, ...] | None = None,
 ) -> tuple[Fit, ...]:
@@ -73,7 +72,7 @@ def run(
         if all(np.isfinite(one.best.loss) for one in later):
             trained = tuple(a.then(b, len(plan)) for a, b in zip(trained, later, strict=True))
             training, plan = finer, (*plan, *finer.segments)
-            judged = None if judged is None else HeldOut(step.over(judged.problem))
+            judged = None if judged is None else step.over(judged)
             problems = [step.over(own) for own in problems]
             errors = _step_errors(training, problems, trained)
     for own, start, one in zip(problems, starts, trained, strict=True):
@@ -135,6 +134,6 @@ def _in_steps(training: Training, step: StepChoice) -> Training:
     return replace(
         training,
         problem=problem,
-        held=None if held is None else HeldOut(step.over(held.problem)),
+        held=None if held is None else step.over(held),
         segments=segments(problem, (stage,), training.options),
     )

@@ -17,7 +17,6 @@ from jaxtyping import Array, Bool, PRNGKeyArray
 from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
 from acausal.training.history import Divergence
 from acausal.training.member import Best, Member, Trained, stacked, unstacked
-from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import of_first_process, on_default_device, replicate
 from acausal.training.objective.trainable import Trainable
@@ -66,7 +65,7 @@ class TrainingRun:
         keys: Sequence[PRNGKeyArray],
         observers: Sequence[Observer],
         keep: Keep,
-        held: HeldOut | None,
+        held: Problem | None,
         halving: Halving,
     ) -> None:
         self.began = time.perf_counter()

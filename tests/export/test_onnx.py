@@ -173,5 +173,5 @@ def test_networks_that_are_not_given_are_missed(vehicle, form, tmp_path):
 
 def test_a_missing_package_is_named(vehicle, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "onnx", None)
-    with pytest.raises(ac.DataError, match=r"export\.onnx needs the package 'onnx'; install it: "):
+    with pytest.raises(ac.DataError, match=r"export\.onnx needs onnx: pip install "):
         ac.export.onnx(vehicle, tmp_path / "v.onnx")

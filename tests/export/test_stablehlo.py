@@ -60,5 +60,5 @@ def test_a_host_callback_is_refused(tmp_path):
 
 def test_a_missing_package_is_named(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "flatbuffers", None)
-    with pytest.raises(ac.DataError, match=r"needs the package 'flatbuffers'; install it: "):
+    with pytest.raises(ac.DataError, match=r"needs flatbuffers: pip install "):
         ac.export.stablehlo(ac.MLP(key=0), tmp_path / "v.jax")

@@ -13,12 +13,11 @@ from acausal.data.readers.table import (
     Selection,
     SignalTable,
     headers,
-    library,
     need_column,
     need_time,
     seconds,
 )
-from acausal.errors import DataError, reason, shown
+from acausal.errors import DataError, need_package, reason, shown
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Index
@@ -86,8 +85,8 @@ def frame_units(signals: object) -> dict[str, str] | None:
 
 def read_parquet(path: Path, selection: Selection) -> SignalTable | dict[str, SignalTable]:
     """A table, or one of each run, from a Parquet file; the units are those that its data frame had."""
-    pandas = library("pandas", "parquet", "A Parquet file")
-    library("pyarrow", "parquet", "A Parquet file")
+    pandas = need_package("pandas", "A Parquet file", "parquet")
+    need_package("pyarrow", "A Parquet file", "parquet")
     try:
         frame = pandas.read_parquet(path, engine="pyarrow")
     except OSError as e:
@@ -101,7 +100,7 @@ def data_frame(
     time: np.ndarray, signals: Mapping[str, np.ndarray], units: Mapping[str, str] | None
 ) -> DataFrame:
     """A data frame with the times as its index, and the units in ``attrs["units"]``."""
-    pandas = library("pandas", "dataframe", "A data frame")
+    pandas = need_package("pandas", "A data frame", "dataframe")
     frame = pandas.DataFrame(dict(signals), index=pandas.Index(time, name="time"))
     if units is not None:
         frame.attrs["units"] = {"time": "s", **units}

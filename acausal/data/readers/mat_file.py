@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, SignalTable, library, need_time
-from acausal.errors import DataError, listing, reason, shown
+from acausal.data.readers.table import Selection, SignalTable, need_time
+from acausal.errors import DataError, listing, need_package, reason, shown
 
 HDF = b"\x89HDF\r\n\x1a\n"
 HDF_STARTS_AT = (0, 512)
@@ -68,7 +68,7 @@ def _version_5(path: Path) -> Mapping[str, Any]:
 
 
 def _hdf(path: Path) -> Mapping[str, Any]:
-    h5py = library("h5py", "mat", f"{path} has MATLAB's version 7.3, which")
+    h5py = need_package("h5py", f"{path} has MATLAB's version 7.3, which", "mat")
     try:
         with h5py.File(path, "r") as file:
             return _group(file)

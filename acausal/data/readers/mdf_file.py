@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, SignalTable, library
-from acausal.errors import DataError, listing, reason, shown
+from acausal.data.readers.table import Selection, SignalTable
+from acausal.errors import DataError, listing, need_package, reason, shown
 
 STARTS = (b"MDF     ", b"UnFinMF ")
 """What a finished file begins with, and one whose writing was broken off."""
@@ -24,7 +24,7 @@ def read_mdf(path: Path, selection: Selection) -> SignalTable:
     Raises:
         DataError: for a file that cannot be read, or a chosen channel that does not hold numbers.
     """
-    asammdf = library("asammdf", "mdf", "An MDF file")
+    asammdf = need_package("asammdf", "An MDF file", "mdf")
     try:
         with path.open("rb") as raw:
             start = raw.read(len(STARTS[0]))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -157,16 +156,3 @@ def seconds(times: np.ndarray, first: Any = None) -> np.ndarray:
         return times
     found = times / np.timedelta64(1, "s")
     return np.asarray(found, float)
-
-
-def library(name: str, extra: str, what: str) -> Any:
-    """An optional library.
-
-    Raises:
-        DataError: if it is not installed.
-    """
-    try:
-        return import_module(name)
-    except ImportError:
-        needed = name.partition(".")[0]
-        raise DataError(f"{what} needs {needed}: pip install 'acausal[{extra}]'.") from None

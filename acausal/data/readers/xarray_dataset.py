@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, SignalTable, library, seconds
-from acausal.errors import DataError, listing, shown
+from acausal.data.readers.table import Selection, SignalTable, seconds
+from acausal.errors import DataError, listing, need_package, shown
 
 
 def read_xarray(dataset: Any, selection: Selection) -> SignalTable:
@@ -52,7 +52,7 @@ def dataset(
     time: np.ndarray, signals: Mapping[str, np.ndarray], units: Mapping[str, str] | None
 ) -> Any:
     """An `xarray.Dataset` with a variable for each signal over the coordinate ``time``, units in ``attrs``."""
-    xarray = library("xarray", "xarray", "A data set")
+    xarray = need_package("xarray", "A data set", "xarray")
 
     def attributes(name: str) -> dict[str, str]:
         return {} if units is None else {"units": units[name]}

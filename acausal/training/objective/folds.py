@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal.data import Data
 from acausal.errors import DataError, is_whole, shown
-from acausal.training.objective.held_out import HeldOut, of_others
+from acausal.training.objective.held_out import of_others
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
@@ -104,7 +104,7 @@ def without(problem: Problem, fold: LeftOut) -> Problem:
 
 def judged_on(
     problem: Problem, fold: LeftOut, data: Mapping[str, Data], x0: InitialState
-) -> HeldOut:
+) -> Problem:
     """The problem of predicting what a fold leaves out, in one simulation of each record.
 
     A record that is left out starts as ``x0`` says, where that is trained from its measured state, and with the
@@ -131,4 +131,4 @@ def judged_on(
     if fold.record:
         starts = first_states(problem.system, data, of_others(x0, data), trained=False)
         judged = replace(judged, first_states=starts, start_prior=None, shooting=None)
-    return HeldOut(judged)
+    return judged

@@ -8,10 +8,8 @@ from dataclasses import replace
 from numbers import Real
 from typing import Any, NamedTuple, TypeAlias, cast
 
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
 
 from acausal._jax import is_number
 from acausal.data import Data, RecordsLike, records_of
@@ -20,20 +18,9 @@ from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.lay_out import lay_out, sample_time
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sequences import whole_records
-from acausal.training.objective.trainable import Trainable
 
 Validation: TypeAlias = "float | str | Sequence[str] | RecordsLike | None"
 """What to hold out: the last part of every record, some of the records by name, other records, or nothing."""
-
-
-class HeldOut(eqx.Module):
-    """The held-out samples of a training: a problem in whose records only these samples count."""
-
-    problem: Problem
-
-    def loss(self, trainable: Trainable) -> Float[Array, ""]:
-        """The loss over the held-out samples, in one simulation of each record."""
-        return self.problem.simulate(self.problem.over_other_records(trainable)).loss
 
 
 class Split(NamedTuple):
@@ -122,8 +109,10 @@ def _shared(data: dict[str, Data], share: Any) -> Split:
     return Split(training, data, ends)
 
 
-def hold_out(problem: Problem, split: Split, x0: InitialState) -> HeldOut | None:
-    """The held-out samples that decide which state of a training is best, from the result of `split`.
+def hold_out(problem: Problem, split: Split, x0: InitialState) -> Problem | None:
+    """A problem in whose records only the held-out samples count, from the result of `split`.
+
+    They decide which state of a training is best.
 
     The ends of records are predicted in one simulation from the records' starts. Other records start as ``x0`` says;
     where that is trained, from their own measured states.
@@ -135,19 +124,17 @@ def hold_out(problem: Problem, split: Split, x0: InitialState) -> HeldOut | None
         return None
     if not split.ends:
         held = {n: d.for_system(problem.system) for n, d in split.held.items()}
-        return HeldOut(over(problem, held, of_others(x0, held)))
+        return over(problem, held, of_others(x0, held))
     other = over(problem, split.held, "model")
     records = other.records
     ends = jnp.asarray(list(split.ends.values()))[records.of]
     weight = jnp.where((records.steps.t > ends)[:, None], records.weight, 0.0)
-    return HeldOut(
-        replace(
-            other,
-            records=replace(records, weight=weight, known=True),
-            first_states=problem.first_states,
-            start_prior=problem.start_prior,
-            shooting=problem.shooting,
-        )
+    return replace(
+        other,
+        records=replace(records, weight=weight, known=True),
+        first_states=problem.first_states,
+        start_prior=problem.start_prior,
+        shooting=problem.shooting,
     )
 
 

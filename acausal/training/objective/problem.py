@@ -159,6 +159,10 @@ class Problem(Simulator):
         own = self.per_record.expected(trainable.per_record, self.records.count)
         return replace(trainable, per_record=own, states=None, starts=None)
 
+    def held_out_loss(self, trainable: Trainable) -> Float[Array, ""]:
+        """The loss of these records, which were not trained on, in one simulation of each."""
+        return self.simulate(self.over_other_records(trainable)).loss
+
     def weighed(self, loss: Float[Array, ""], trainable: Trainable) -> Float[Array, ""]:
         """The loss, and what is known without data: a loss ℓ of n samples counts as the likelihood ``ℓ^-n``.
 
