@@ -293,7 +293,7 @@ def _fold(training: Training, part: LeftOut, trained: tuple[Trained, ...] | None
     judged = judged_on(training.problem, part, training.records, training.options.x0)
     (fit,) = run(training.without(part), judged, f"Without '{part.name}': ", trained)
     fit = replace(fit, records=_counting(fit.records), held_out=_counting(fit.held_out))
-    loss = float(judged.loss(fit.trained))
+    loss = float(judged.held_out_loss(fit.trained))
     return Fold(part.name, fit, loss if np.isfinite(loss) else np.inf)
 
 

@@ -161,7 +161,7 @@ def test_a_record_that_is_left_out_is_predicted_with_what_is_expected_of_it():
     problem = pose(records(), per_record={"spring.c": None}, x0="fit")
     fold = left_out(problem.records, "records")[2]
     data = {n: d.for_system(plain()) for n, d in records().items()}
-    judged = judged_on(problem, fold, data, "fit").problem
+    judged = judged_on(problem, fold, data, "fit")
     start = problem.start()
     moves = jnp.array([0.1, 0.3, 7.0])
     known = judged.over_other_records(replace(start, per_record={"spring.c": moves}))

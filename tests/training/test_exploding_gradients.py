@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.training.history import EVALUATIONS, TrainingLog
-from acausal.training.objective.records import Places
 from tests.support.friction import sticking
 
 MEND = r"Its steps are too long for the solver to be stable: take a smaller dt"
@@ -58,12 +56,3 @@ def test_a_training_that_finds_nothing_is_told_of_its_steps():
         train(epochs=2, strategy="whole_record")
     sentence = "Training found nothing better than its start. Steps of 0.001 s are far too long"
     assert any(str(w.message).startswith(sentence) for w in said)
-
-
-def test_logs_of_earlier_versions_are_continued():
-    log = TrainingLog(Places(np.arange(3.0), np.zeros(3, int), ("record",)), (), ())
-    columns = {n: np.zeros(2, int) for n in ("diverged", "first", "rejected")}
-    columns = {**columns, "loss": np.ones(2), "seconds": np.ones(2), EVALUATIONS: np.zeros((0, 3))}
-    log.go_on(columns | {"rejected": np.zeros(2, bool)})
-    assert log.epochs == 2
-    assert log.rows().columns()["exploded"].tolist() == [0, 0]

@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.data import Data
 from acausal.simulation import for_fixed_steps, inner_fractions, solver_named
+from acausal.training.objective.losses import LEAST
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions
@@ -18,8 +19,8 @@ ORDER = {"heun": 2, "rk4": 4, "kvaerno3": 3}
 MANY = 10_000
 """Rows from which on a method of second order is tried, which takes half of the time."""
 
-SHARE, LEAST = 0.1, 1e-3
-"""The largest error, relative to the noise; and the least noise, relative to the targets, that is reckoned with."""
+SHARE = 0.1
+"""The largest error, relative to the noise."""
 
 FINEST = 32
 """Steps between two samples at most."""

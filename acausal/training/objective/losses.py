@@ -19,6 +19,9 @@ from acausal.training.objective.records import Records
 Loss = Callable[..., Float[Array, ""]]
 """(predicted, measured, sigma, weight) -> scalar, for M points of k targets; a user's own may leave out the weight."""
 
+LEAST = 1e-3
+"""The least noise of a target that is reckoned with, relative to its standard deviation."""
+
 
 def nrmse(
     predicted: Float[Array, "M k"],
@@ -74,8 +77,12 @@ def noise_of(
 
 
 def noise_loss(records: Records, predicted: Float[Array, "N n_targets"] | None = None) -> float:
-    """The loss of a model that leaves nothing but this noise, for losses that are root mean squares."""
-    return float(np.sqrt(np.sum((noise_of(records, predicted) / np.asarray(records.sigma)) ** 2)))
+    """The loss of a model that leaves nothing but this noise, for losses that are root mean squares.
+
+    Records without noise, as simulated ones, count as if they had a little: to explain more of them is worth no time.
+    """
+    noise = noise_of(records, predicted) / np.asarray(records.sigma)
+    return float(max(np.sqrt(np.sum(noise**2)), LEAST * np.sqrt(len(noise))))
 
 
 def number(what: str, function: Callable[..., object], *arguments: object) -> Float[Array, ""]:
