@@ -37,10 +37,10 @@ from acausal.codegen import (
 from acausal.errors import DataError, ModelError, nearest, need_flag, shown, user_level
 from acausal.events import Edges, Events, generate_events, start_of
 from acausal.flattening import (
-    HIDDEN,
     FlatModel,
     LeavesCaches,
     flatten,
+    is_hidden,
     opened,
     unconnected,
     with_inputs,
@@ -196,7 +196,7 @@ class System(LeavesCaches):
         read = [g.group.variables[:, np.asarray(g.previous, bool)].ravel() for g in groups]
         known = np.unique(np.concatenate([np.zeros(0, np.int64), *read]))
         names = map(self.flat.layout.variable, np.intersect1d(known, self.flat.discrete).tolist())
-        return tuple(n for n in names if not n.rpartition(".")[2].startswith(HIDDEN))
+        return tuple(n for n in names if not is_hidden(n))
 
     @cached_property
     def variables(self) -> tuple[str, ...]:
@@ -204,7 +204,7 @@ class System(LeavesCaches):
         names = map(self.flat.layout.variable, range(self.flat.n_variables))
         if not len(self.flat.discrete) and not len(self.flat.given):
             return tuple(names)
-        return tuple(n for n in names if not _is_hidden(n))
+        return tuple(n for n in names if not is_hidden(n))
 
     @cached_property
     def discrete(self) -> dict[str, tuple[int, int]]:
@@ -213,7 +213,7 @@ class System(LeavesCaches):
         found: dict[str, tuple[int, int]] = {}
         for index in np.sort(self.flat.discrete).tolist():
             name = self.flat.layout.variable(index)
-            if not _is_hidden(name):
+            if not is_hidden(name):
                 node, sign = self.reduced.resolve(index)
                 found[name] = places[node], sign
         return found
@@ -222,7 +222,7 @@ class System(LeavesCaches):
         """A discrete variable by its place in ``d``: its name, or the condition or clock that it stands for."""
         node = int(self.reduced.discrete[place])
         name = self.reduced.name(node)
-        if not _is_hidden(name):
+        if not is_hidden(name):
             return name
         assert self.events is not None
         return self.events.describe(place) or name
@@ -506,7 +506,7 @@ class System(LeavesCaches):
         """The values at a time before states are found: these are zero, and discrete variables have their starts."""
         u = array(np.zeros(len(self.inputs))) if u0 is None else u0
         at = self.values(array(t0), array(np.zeros(len(self.states))), u, packed)
-        return at._replace(d=self.initializer.discrete_start(packed))
+        return at._replace(d=self.initializer.conditions.discrete_start(packed))
 
     def watching(self, names: Iterable[str]) -> System:
         """The model in which the library's conditions are events, where some parameters act through such alone.
@@ -523,7 +523,7 @@ class System(LeavesCaches):
     @cached_property
     def _watched(self) -> System:
         given = [self.flat.layout.variable(int(i)) for i in self.flat.given]
-        names = [name for name in given if not _is_hidden(name)]
+        names = [name for name in given if not is_hidden(name)]
         found = compile(self.model, inputs=names, check_units=False, events=True)
         return self if found.events is None else found
 
@@ -545,7 +545,7 @@ class System(LeavesCaches):
             return values
         t, x = jnp.asarray(values.t, values.x.dtype), values.x
         start = values._replace(
-            t=t, d=self.initializer.discrete_start(values.packed).astype(x.dtype)
+            t=t, d=self.initializer.conditions.discrete_start(values.packed).astype(x.dtype)
         )
         return start_of(self.events, start, lambda d: x, self.describe_discrete)
 
@@ -730,8 +730,3 @@ def _warn_of_silent(flat: FlatModel) -> None:
         if not one.asked and id(one) not in named:
             named.add(id(one))
             warnings.warn(one.sentence(name), stacklevel=user_level())
-
-
-def _is_hidden(name: str) -> bool:
-    """Whether a variable is one of a watched condition, which users do not see."""
-    return name.rpartition(".")[2].startswith(HIDDEN)

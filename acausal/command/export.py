@@ -77,8 +77,7 @@ def run(args: Namespace, out: CommandOutput) -> None:
         path, given["name"] = path.parent, path.stem
     files = getattr(ac.export, name)(system, path, params, overwrite=args.overwrite, **given)
     written = [str(file) for file in (files if isinstance(files, tuple) else (files,))]
-    for file in written:
-        out.say(f"wrote {file}")
+    out.wrote(written)
     out.result({"model": title_of(system), "form": name, "files": written})
 
 

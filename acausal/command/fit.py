@@ -115,8 +115,7 @@ def _show(done: ac.Fit, title: str, files: list[str], out: CommandOutput) -> Non
     out.table(("", "before", "after"), rows)
     rows = [(n, number(error), done.system.unit(n)) for n, error in done.rms.items()]
     out.table(("target", "rms error", "unit"), rows)
-    for file in files:
-        out.say(f"wrote {file}")
+    out.wrote(files)
 
 
 def _facts(done: ac.Fit) -> dict[str, Any]:

@@ -29,6 +29,11 @@ class CommandOutput:
         if not self.as_json:
             sys.stdout.write(f"{text}\n")
 
+    def wrote(self, files: Iterable[object]) -> None:
+        """The files that a command has written, a line each."""
+        for file in files:
+            self.say(f"wrote {file}")
+
     def title(self, text: str) -> None:
         """A line that begins a section."""
         if not self.as_json:

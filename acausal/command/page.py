@@ -40,5 +40,5 @@ def run(args: Namespace, out: CommandOutput) -> None:
     need_new(Path(args.folder) / "index.html", args, "folder")
     system = system_of(args)
     file = str(ac.page(system, args.folder))
-    out.say(f"wrote {file}")
+    out.wrote([file])
     out.result({"model": title_of(system), "files": [file]})

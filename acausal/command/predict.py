@@ -87,8 +87,7 @@ def run(args: Namespace, out: CommandOutput) -> None:
     for p in found.values():
         if p.outside:
             out.warn(p.outside)
-    for file in files:
-        out.say(f"wrote {file}")
+    out.wrote(files)
     out.result(
         {
             "model": title,

@@ -214,8 +214,7 @@ def _summary(
     ]
     if rows:
         out.table(("name", "unit", "start", "end", "lowest", "highest"), rows)
-    for file in files:
-        out.say(f"wrote {file}")
+    out.wrote(files)
 
 
 def _plot(solution: ac.Solution, names: list[str], path: str) -> None:

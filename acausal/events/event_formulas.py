@@ -150,7 +150,7 @@ def _update(
     reduced: ReducedModel,
     program: Program,
     layout: ParameterLayout,
-    group: UpdateGroup | GuardGroup,
+    group: UpdateGroup,
     rows: Integers | None = None,
 ) -> Update:
     rows = np.arange(len(group.targets)) if rows is None else rows

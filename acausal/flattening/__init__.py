@@ -23,7 +23,7 @@ from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,
 )
-from acausal.flattening.stated import HIDDEN as HIDDEN
+from acausal.flattening.stated import is_hidden as is_hidden
 from acausal.flattening.sums import Statement as Statement
 from acausal.flattening.template import Integers as Integers, Template as Template
 from acausal.flattening.templates import FEW_VARIANTS as FEW_VARIANTS

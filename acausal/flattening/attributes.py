@@ -28,7 +28,7 @@ class VariableAttributes:
     state: Numbers
     tear: Integers
     start_given: Flags
-    start_bindings: tuple[Binding, ...]
+    starts: tuple[Binding, ...]
 
 
 def variable_attributes(layout: Layout) -> VariableAttributes:
@@ -63,7 +63,7 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
         if component._node.modifiers:
             bindings += _modified_starts(layout, number, declared)
     _check(layout, declared)
-    return replace(declared, start_bindings=tuple(bindings))
+    return replace(declared, starts=tuple(bindings))
 
 
 def _check(layout: Layout, found: VariableAttributes) -> None:
@@ -103,7 +103,7 @@ def _declared_attributes(layout: Layout) -> VariableAttributes:
         state=tiled(layout, base, rank, np.float64),
         tear=tiled(layout, base, tear, np.int64),
         start_given=np.zeros(len(start), dtype=np.bool_),
-        start_bindings=(),
+        starts=(),
     )
 
 

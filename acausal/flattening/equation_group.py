@@ -81,33 +81,29 @@ def specialised(
 
 
 @dataclass(frozen=True)
-class GuardGroup:
-    """Conditions that are watched: ``target`` is 1 where the template's residual is positive, else 0.
-
-    Attributes:
-        group: the template and its instances. targets: (n,) the hidden variables.
-        previous: for every slot of a variable whether it takes the value before an event.
-        strict: whether zero counts as false. ticks: whether it is a clock's, false while initial values are found.
-    """
-
-    group: EquationGroup
-    targets: Integers
-    previous: tuple[bool, ...]
-    strict: bool
-    ticks: bool
-
-
-@dataclass(frozen=True)
 class UpdateGroup:
     """What variables become at an event: the value of the template's residual.
 
     Attributes:
-        group, targets, previous: as in `GuardGroup`.
+        group: the template and its instances. targets: (n,) the variables.
+        previous: for every slot of a variable whether it takes the value before an event.
     """
 
     group: EquationGroup
     targets: Integers
     previous: tuple[bool, ...]
+
+
+@dataclass(frozen=True)
+class GuardGroup(UpdateGroup):
+    """Conditions that are watched: a hidden target is 1 where the template's residual is positive, else 0.
+
+    Attributes:
+        strict: whether zero counts as false. ticks: whether it is a clock's, false while initial values are found.
+    """
+
+    strict: bool
+    ticks: bool
 
 
 @dataclass(frozen=True)

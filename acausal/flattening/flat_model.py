@@ -97,6 +97,17 @@ class FlatModel(LeavesCaches):
         watched = np.concatenate([np.zeros(0, np.int64), *guards])
         return np.concatenate([watched, np.setdiff1d(declared, [*watched, *self.given])])
 
+    def stated_at(self, component: int, origin: object) -> str:
+        """Where an equation is stated, and its text, for messages.
+
+        Arguments:
+            component: its number; of connections, -1 minus the number of a variable of a connector.
+        """
+        if component < 0:
+            return f"{self.layout.variable(-1 - component).rpartition('.')[0]} ({origin})"
+        path = self.layout.paths[component]
+        return f"{path} ({origin})" if path else str(origin)
+
     @cached_property
     def input_defaults(self) -> dict[str, float]:
         """By name, what inputs of the model are where nothing is given for them."""
@@ -143,13 +154,7 @@ def _flat(model: Component, watch: bool) -> FlatModel:
         initial=stated.initial,
         events=stated.events,
         inputs=model_inputs(layout, sets),
-        start=attributes.start,
-        fixed=attributes.fixed,
-        nominal=attributes.nominal,
-        state=attributes.state,
-        tear=attributes.tear,
-        start_given=attributes.start_given,
-        starts=attributes.start_bindings,
+        **vars(attributes),
         value=np.append(parameters.value, stated.constants),
         bindings=parameters.bindings,
         folded=np.append(parameters.folded, np.zeros(len(stated.constants), np.bool_)),

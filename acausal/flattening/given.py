@@ -10,13 +10,13 @@ import numpy as np
 
 from acausal.errors import DeclarationError, nearest, shown
 from acausal.flattening.connections import zeros
-from acausal.flattening.equation_group import EquationGroup, GuardGroup, UpdateGroup
+from acausal.flattening.equation_group import UpdateGroup
 from acausal.flattening.flat_model import FlatModel
-from acausal.flattening.stated import HIDDEN
+from acausal.flattening.stated import is_hidden
 from acausal.flattening.template import Integers
 from acausal.modeling import names_in
 
-Group = TypeVar("Group", GuardGroup, UpdateGroup)
+Group = TypeVar("Group", bound=UpdateGroup)
 
 
 def with_inputs(model: FlatModel, names: Sequence[str]) -> FlatModel:
@@ -40,10 +40,14 @@ def with_inputs(model: FlatModel, names: Sequence[str]) -> FlatModel:
     while True:
         targets = [*(g.targets for g in events.guards), *(g.targets for g in events.updates)]
         known = np.concatenate([idle, *targets])
-        read = [model.groups, model.initial, map(_equations, events.guards)]
-        read += [map(_equations, events.updates), map(_equations, events.jumps)]
+        stated = (*events.guards, *events.updates, *events.jumps)
+        read = [model.groups, model.initial, [g.group for g in stated]]
         needed = np.concatenate([idle[:0], *(g.variables.ravel() for some in read for g in some)])
-        unread = [v for v in np.setdiff1d(known, [*needed, *idle]).tolist() if _hidden(model, v)]
+        unread = [
+            v
+            for v in np.setdiff1d(known, [*needed, *idle]).tolist()
+            if is_hidden(model.layout.variable(v))
+        ]
         if not unread:
             break
         idle = np.append(idle, unread)
@@ -67,7 +71,7 @@ def _given(model: FlatModel, name: str) -> int:
     index = model.layout.find_variable(name)
     if index is not None and index in targets:
         return index
-    known = [model.layout.variable(v) for v in targets.tolist() if not _hidden(model, v)]
+    known = [n for n in map(model.layout.variable, targets.tolist()) if not is_hidden(n)]
     if index is not None and index in model.inputs:
         raise DeclarationError(f"inputs: '{name}' is an input already; leave it out")
     if not known:
@@ -85,11 +89,3 @@ def _without(groups: Iterable[Group], targets: Integers) -> Iterator[Group]:
             yield group
         elif kept.any():
             yield replace(group, group=group.group.rows(kept), targets=group.targets[kept])
-
-
-def _equations(group: GuardGroup | UpdateGroup) -> EquationGroup:
-    return group.group
-
-
-def _hidden(model: FlatModel, variable: int) -> bool:
-    return model.layout.variable(variable).rpartition(".")[2].startswith(HIDDEN)

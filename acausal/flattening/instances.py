@@ -18,7 +18,7 @@ from acausal.flattening.equation_group import (
 from acausal.flattening.layout import Layout, members_of_forms
 from acausal.flattening.origin import Origin
 from acausal.flattening.reading import read_statements
-from acausal.flattening.stated import GuardStatement, Stated, UpdateStatement, without_events
+from acausal.flattening.stated import Stated, UpdateStatement, without_events
 from acausal.flattening.template import Integers
 from acausal.flattening.templates import EquationShape, Filled, SlotSource, Templates, route_to
 from acausal.modeling import Component, Eq, Reference, charge
@@ -67,14 +67,10 @@ def instantiate(layout: Layout, statements: Sequence[Stated]) -> Instances:
         at_start_shapes = [_shape(templates, prototype, e) for e in at_start]
         initial += [_equation(templates, shape, own) for shape in at_start_shapes]
         for guard in stated.guards:
-            group, previous = _group(templates, prototype, guard, own)
-            targets = _targets(layout, prototype, guard.target, own)
-            guards.append(GuardGroup(group, targets, previous, guard.strict, guard.ticks))
-        for groups, some in ((updates, stated.updates), (jumps, stated.jumps)):
-            for update in some:
-                group, previous = _group(templates, prototype, update, own)
-                targets = _targets(layout, prototype, update.target, own)
-                groups.append(UpdateGroup(group, targets, previous))
+            parts = vars(_update(templates, prototype, guard, own))
+            guards.append(GuardGroup(**parts, strict=guard.strict, ticks=guard.ticks))
+        updates += [_update(templates, prototype, update, own) for update in stated.updates]
+        jumps += [_update(templates, prototype, jump, own) for jump in stated.jumps]
     order = np.argsort([g.components[0] for g in equations], kind="stable")
     events = EventEquations(tuple(guards), tuple(updates), tuple(jumps))
     constants = tuple(templates.constants)
@@ -95,15 +91,14 @@ def _equation(templates: Templates, shape: EquationShape, members: Integers) -> 
     return _fill(templates, templates.of(shape), Origin(Eq(*shape.sides), shape.owner), members)
 
 
-def _group(
-    templates: Templates,
-    owner: Component,
-    stated: GuardStatement | UpdateStatement,
-    members: Integers,
-) -> tuple[EquationGroup, tuple[bool, ...]]:
-    """An expression as a template's residual, for all members; and which slots take values before an event."""
+def _update(
+    templates: Templates, owner: Component, stated: UpdateStatement, members: Integers
+) -> UpdateGroup:
+    """What an expression gives, as a template's residual, for all members."""
     filled = templates.of(templates.shape(owner, stated.value, stated.text))
-    return _fill(templates, filled, Origin(stated.text, owner), members), filled.previous
+    group = _fill(templates, filled, Origin(stated.text, owner), members)
+    targets = _targets(templates.layout, owner, stated.target, members)
+    return UpdateGroup(group, targets, filled.previous)
 
 
 def _targets(layout: Layout, owner: Component, target: Reference, members: Integers) -> Integers:

@@ -37,6 +37,12 @@ from acausal.modeling import (
 HIDDEN = "_event"
 """How the names of hidden discrete variables begin."""
 
+
+def is_hidden(name: str) -> bool:
+    """Whether a variable is one of a watched condition, which users do not see."""
+    return name.rpartition(".")[2].startswith(HIDDEN)
+
+
 TINY = sp.Float(1e-60)
 """No period is shorter [s]."""
 
@@ -45,28 +51,24 @@ ROUNDING = sp.Float(1e-9)
 
 
 @dataclass(frozen=True)
-class GuardStatement:
-    """``target`` is 1 where ``value > 0`` (or ``>= 0`` unless ``strict``), else 0; steps end where that changes.
-
-    Attributes:
-        text: the condition, for messages.
-        ticks: whether it is a clock's: not true while initial values are found.
-    """
+class UpdateStatement:
+    """``target = value`` at every event; of a state, what it jumps to. ``text`` says so in messages."""
 
     target: Reference
     value: sp.Expr
-    strict: bool
     text: str
-    ticks: bool = False
 
 
 @dataclass(frozen=True)
-class UpdateStatement:
-    """``target = value`` at every event; of a state, what it jumps to."""
+class GuardStatement(UpdateStatement):
+    """``target`` is 1 where ``value > 0`` (or ``>= 0`` unless ``strict``), else 0; steps end where that changes.
 
-    target: Reference
-    value: sp.Expr
-    text: str
+    Attributes:
+        ticks: whether it is a clock's: not true while initial values are found.
+    """
+
+    strict: bool
+    ticks: bool = False
 
 
 @dataclass(frozen=True)
@@ -294,7 +296,7 @@ class _Sorting:
             value: Any = lhs - rhs if above else rhs - lhs
             strict = isinstance(relation, sp.Gt | sp.Lt)
             target = self.known[relation] = self._new("bool")
-            self.guards.append(GuardStatement(target, self._ticking(value), strict, str(relation)))
+            self.guards.append(GuardStatement(target, self._ticking(value), str(relation), strict))
         return self.known[relation]
 
     def _floor(self, number: Any, _: Any) -> Reference:
@@ -311,7 +313,7 @@ class _Sorting:
             passed: list[Any] = []
             for end in ends:
                 passed.append(r := self._new("bool"))
-                self.guards.append(GuardStatement(r, number - end, False, f"floor({number})"))
+                self.guards.append(GuardStatement(r, number - end, f"floor({number})", False))
             up = sp.Or(
                 *(
                     sp.And(sp.Gt(e, before), sp.Gt(r, HALF))
@@ -346,7 +348,7 @@ class _Sorting:
             r, count = self._new("bool"), self._new("int")
             now = self.known[tick] = self._new("bool")
             due = time - (tick.start + Previous(count) * tick.period)
-            self.guards.append(GuardStatement(r, due, False, str(tick), ticks=True))
+            self.guards.append(GuardStatement(r, due, str(tick), False, ticks=True))
             just = sp.And(sp.Gt(r, HALF), sp.Le(Previous(r), HALF))
             passed = sp.Max(0, sp.ceiling((time - tick.start) / tick.period - ROUNDING))
             if (

@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.fmu.archive import read
+from acausal.fmu.derivatives import Differentiated
 from acausal.fmu.description import STRUCTURAL
 from acausal.fmu.histories import KEPT, AfterEvent, Histories, PastEvent
 from acausal.fmu.instance import Instance
@@ -24,7 +25,7 @@ class Computed:
     pure function of these, so that steps may be tried, repeated and gone through backwards.
 
     Attributes:
-        numbers: of all functions.
+        functions: by name, the number of the function and how many numbers it gives.
     """
 
     make: ClassVar[type[Instance]]
@@ -56,7 +57,16 @@ class Computed:
         each = [[v.nominal] * v.size for v in (known[n] for n in names)]
         self._scales = np.asarray([1.0, 0.0, *(s for sizes in each for s in sizes)])
         self._new().free()  # an FMU that cannot be used says so before it is needed
-        self.numbers: tuple[int, ...] = ()
+        self.functions: dict[str, tuple[int, int]] = {}
+
+    def _offer(self, **functions: Differentiated) -> None:
+        """Make functions known by name."""
+        self.functions |= {n: (f.register(), f.height) for n, f in functions.items()}
+
+    @property
+    def numbers(self) -> list[int]:
+        """Those of all functions and of their derivatives."""
+        return [number + k for number, _ in self.functions.values() for k in range(3)]
 
     def _variables(self, names: tuple[str, ...]) -> Variables:
         known = self.description.variables

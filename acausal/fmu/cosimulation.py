@@ -162,13 +162,13 @@ class Stepped(Computed):
         first = 2 + part.n_inputs
         width = first + part.n_parameters
         scales = np.append(self._scales, np.tile(self._scales[2:first], part.memory))
-        of_step = Differentiated(
-            self._step, len(scales), 1 + part.n_values, range(first, len(scales)), scales, self._lock,
-            fast=self._by_inputs,
+        self._offer(
+            step=Differentiated(
+                self._step, len(scales), 1 + part.n_values, range(first, len(scales)), scales, self._lock,
+                fast=self._by_inputs,
+            ),
+            take=Differentiated(self._take, width, 1, (), self._scales, self._lock),
         )  # fmt: skip
-        of_taking = Differentiated(self._take, width, 1, (), self._scales, self._lock)
-        self.step, self.take = of_step.register(), of_taking.register()
-        self.numbers = tuple(range(self.step, self.take + 1))
 
     def _first(self, parameters: bytes, old: Instance | None) -> Slave:
         """A new instance: FMUs that are reset have been seen to keep what they knew."""

@@ -36,14 +36,7 @@ class FMUFunction(eqx.Module):
     def __call__(self, which: Any, *values: Any) -> Float[Array, ""]:
         """The number at a place, counted from 0."""
         part = self.part
-        rows = {
-            "evaluate": part.n_values,
-            "event": 2 + part.n,
-            "begin": 1 + part.n,
-            "step": 1 + part.n_values,
-            "take": 1,
-        }[self.kind]
-        number = getattr(computed(part), self.kind)
+        number, rows = computed(part).functions[self.kind]
         kind = jnp.result_type(*values, np.float32)
         given = [jnp.asarray(v, kind) for v in values]
         if self.kind == "take":

@@ -49,12 +49,13 @@ class Evaluated(Computed):
             "scales": self._scales,
             "lock": self._lock,
         }
-        self.evaluate = Differentiated(
-            self._evaluate, width, part.n_values, **common, fast=self._fast_columns, central=indicators > 0
-        ).register()  # fmt: skip
-        self.event = Differentiated(self._event, width + indicators + 1, 2 + n, **common).register()
-        self.begin = Differentiated(self._begin, width, 1 + n, **common).register()
-        self.numbers = tuple(range(self.evaluate, self.begin + 3))
+        self._offer(
+            evaluate=Differentiated(
+                self._evaluate, width, part.n_values, **common, fast=self._fast_columns, central=indicators > 0
+            ),
+            event=Differentiated(self._event, width + indicators + 1, 2 + n, **common),
+            begin=Differentiated(self._begin, width, 1 + n, **common),
+        )  # fmt: skip
         self.first_event, self.first_states = NEVER, [0.0] * n
         try:
             self._at(self.defaults(), 0)

@@ -83,10 +83,8 @@ class Conditions(LeavesCaches):
         layout = self.reduced.model.layout
         names = [f"{layout.variable(c.variable)} (fixed start)" for c in starts]
         for group in self.reduced.model.initial:
-            places = [layout.paths[c] for c in group.components]
-            names += [
-                f"{p} ({o})" if p else str(o) for p, o in zip(places, group.origins, strict=True)
-            ]
+            places = zip(group.components.tolist(), group.origins, strict=True)
+            names += [self.reduced.model.stated_at(c, o) for c, o in places]
         states = self.reduced.states
         return names + [f"der({self.reduced.name(int(states[i]))}) = 0" for i in resting]
 

@@ -132,9 +132,8 @@ class Initializer(LeavesCaches):
         """Initial states, shape (n_states,), for given discrete variables; see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
             return self.closed(Values(array(t0), self._whole(x0), u0, packed, d))
-        x, plan = self._posed(packed, self.by_state(x0 or {}), steady, least_squares)
-        at = Values(array(t0), x, u0, packed, d)
-        return self.closed(at if plan is None else at._replace(x=self._found(plan, at)[0]))
+        at = Values(array(t0), self.conditions.starts(packed), u0, packed, d)
+        return self._solution(at, self.by_state(x0 or {}), steady, least_squares)[0]
 
     def start_or_nan(
         self,
@@ -143,17 +142,9 @@ class Initializer(LeavesCaches):
         t0: float | Array = 0.0,
     ) -> Float[Array, " n_states"]:
         """Initial states, or NaN where the conditions cannot all hold: for programs that raise no errors."""
-        x, plan = self._posed(packed, {}, steady=False, least_squares=False)
-        at = Values(jnp.asarray(t0, float), x, u0, packed)
-        if plan is None:
-            return self.closed(at)
-        x, rest, _ = self._found(plan, at)
-        x = self.closed(at._replace(x=x))
-        return jnp.where(jnp.all(jnp.abs(rest) < LEFT_OVER), x, jnp.nan)
-
-    def discrete_start(self, packed: Packed) -> Float[Array, " n_discrete"]:
-        """The discrete variables' start values, shape (n_discrete,)."""
-        return self.conditions.discrete_start(packed)
+        at = Values(array(t0), self.conditions.starts(packed), u0, packed)
+        x, _, rest, _ = self._solution(at, {})
+        return x if rest is None else jnp.where(jnp.all(jnp.abs(rest) < LEFT_OVER), x, jnp.nan)
 
     def report(
         self,
@@ -169,23 +160,35 @@ class Initializer(LeavesCaches):
         if not isinstance(x0, Mapping):
             raise DataError(f"x0={shown(x0)} has no names; give the states by name.")
         x0 = self.by_state(x0)
-        x, plan = self._posed(packed, x0, steady, least_squares)
-        at = Values(jnp.asarray(t0, float), x, u0, packed)
+        at = Values(array(t0), self.conditions.starts(packed), u0, packed)
+        x, plan, rest, jacobian = self._solution(at, x0, steady, least_squares)
         roles = [
             "given" if name in x0 else "fixed" if fixed else "start"
             for name, fixed in zip(self.names, self.conditions.fixed, strict=True)
         ]
         roles[self.reduced.n_independent :] = ["computed"] * len(self.reduced.guessed)
         if plan is None:
-            return Initialization(self.closed(at), self.names, tuple(roles), (), np.zeros(0))
-        x, rest, jacobian = self._found(plan, at)
-        x = self.closed(at._replace(x=x))
+            return Initialization(x, self.names, tuple(roles), (), np.zeros(0))
         for i, role in zip(plan.moved, _roles(plan, np.asarray(jacobian)), strict=True):
             roles[i] = role
         names = self.conditions.names(plan.starts, plan.resting)
         return Initialization(x, self.names, tuple(roles), tuple(names), np.asarray(rest))
 
     # -- the problem -------------------------------------------------------------------------------
+
+    def _solution(
+        self,
+        at: Values,
+        given: Mapping[str, ArrayLike],
+        steady: bool | Sequence[str] = False,
+        least_squares: bool = False,
+    ) -> tuple[Array, InitializationProblem | None, Any, Any]:
+        """The states, and of the conditions to be met, if any, what is left and the Jacobian."""
+        x, plan = self._posed(at.x, given, steady, least_squares)
+        if plan is None:
+            return self.closed(at._replace(x=x)), None, None, None
+        x, rest, jacobian = self._found(plan, at._replace(x=x))
+        return self.closed(at._replace(x=x)), plan, rest, jacobian
 
     def _whole(self, x0: ArrayLike) -> Array:
         if not is_real(x0):
@@ -204,13 +207,12 @@ class Initializer(LeavesCaches):
 
     def _posed(
         self,
-        packed: Packed,
+        x: Any,
         given: Mapping[str, ArrayLike],
         steady: bool | Sequence[str],
         least_squares: bool,
     ) -> tuple[Array, InitializationProblem | None]:
-        """The states to begin with, and the conditions that remain to be met, if any."""
-        x: Any = self.conditions.starts(packed)
+        """The states to begin with, from their starts, and the conditions that remain to be met, if any."""
         is_known = not traced(x, list(given.values()))
         x = np.array(x) if is_known else x
         for i, name in enumerate(self.names):

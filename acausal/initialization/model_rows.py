@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sp
 
 from acausal.codegen import Packed, ParameterLayout, pack
-from acausal.flattening import HIDDEN, Binding, FlatModel
+from acausal.flattening import Binding, FlatModel, is_hidden
 from acausal.initialization.initialize import Initializer
 from acausal.modeling import Declaration
 
@@ -109,10 +109,10 @@ def _discrete(initial: Initializer, packed: Packed) -> Iterator[tuple[str, Row]]
     reduced = initial.reduced
     if not len(reduced.discrete):
         return
-    starts = np.asarray(initial.discrete_start(packed)).tolist()
+    starts = np.asarray(initial.conditions.discrete_start(packed)).tolist()
     for node, start in zip(reduced.discrete.tolist(), starts, strict=True):
         name = reduced.name(node)
-        if not name.rpartition(".")[2].startswith(HIDDEN):
+        if not is_hidden(name):
             index = reduced.model.layout.find_variable(name)
             yield name, {**_variable(reduced.model, "discrete", name, index), "start": start}
 

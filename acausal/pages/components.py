@@ -13,7 +13,7 @@ from jaxtyping import Float
 from acausal.codegen import Packed, read_parameters
 from acausal.drawing import diagram_svg
 from acausal.errors import AcausalError
-from acausal.flattening import HIDDEN
+from acausal.flattening import is_hidden
 from acausal.modeling import Component, Eq, Module, Option
 from acausal.pages.energy_of_components import energy_blocks, power_names
 from acausal.pages.own_law import own_equations
@@ -144,7 +144,7 @@ class _Book:
         found: dict[str, str] = {}
         for i, local in sorted(names, key=lambda pair: "." in pair[1]):
             node = reduced.resolve(first + i)[0]
-            if local.startswith(HIDDEN) or node in seen or len(found) >= MOST_VARIABLES:
+            if is_hidden(local) or node in seen or len(found) >= MOST_VARIABLES:
                 continue
             seen.add(node)
             found[local] = layout.variable(first + i)

@@ -66,10 +66,8 @@ def check_jumps(model: FlatModel, aliases: AliasFree, states: set[int]) -> None:
 def _given(model: FlatModel) -> list[tuple[Integers, list[str]]]:
     """The variables that equations of events give, and these equations."""
     groups = [*model.events.guards, *model.events.updates]
-    return [(g.targets, _origins(model, g)) for g in groups]  # pyright: ignore[reportArgumentType]
+    return [(g.targets, _origins(model, g)) for g in groups]
 
 
 def _origins(model: FlatModel, group: UpdateGroup) -> list[str]:
-    paths = (model.layout.paths[c] for c in group.group.components)
-    origin = group.group.origins[0]
-    return [f"{path} ({origin})" if path else str(origin) for path in paths]
+    return [model.stated_at(c, group.group.origins[0]) for c in group.group.components.tolist()]

@@ -15,7 +15,6 @@ from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
 from acausal.structure.discrete import discrete_nodes
 from acausal.structure.jacobian import Point, is_constant, parameter_values, partials
-from acausal.structure.singularity import equation_name
 
 
 @dataclass
@@ -147,10 +146,6 @@ class Equations:
                         bottom[node_of_chain] = v
         return bottom
 
-    def origins(self) -> list[tuple[Origin, int]]:
-        """Where every equation is stated: origin and component."""
-        return list(zip(self.origin, self.component, strict=True))
-
     @cached_property
     def apart(self) -> list[str | None]:
         """For every equation what keeps it apart from equal ones of other classes: its text; None if they are many.
@@ -173,7 +168,7 @@ class Equations:
         """Where an equation is stated, and its text (of a derivative, that of the original equation)."""
         while equation in self.derived_from:
             equation = self.derived_from[equation]
-        return equation_name(self.model, (self.origin[equation], self.component[equation]))
+        return self.model.stated_at(self.component[equation], self.origin[equation])
 
     def name(self, node: int) -> str:
         """Dotted name of a node; derivatives without one are called ``der(...)``."""

@@ -168,9 +168,7 @@ def reduce(model: FlatModel) -> ReducedModel:
     aliases = eliminate_aliases(model)
     system = Equations.of(model, aliases)
     combined = expose_constraints(system)
-    problem = explain_singularity(
-        model, aliases, system.incidence, system.chains(), system.origins(), combined
-    )
+    problem = explain_singularity(system, combined)
     if problem is not None:
         raise StructureError(problem)
     system.reduce_index()

@@ -5,28 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from acausal.errors import listing
-from acausal.flattening import FlatModel, Origin
+from acausal.flattening import FlatModel
 from acausal.modeling import Potential
 from acausal.structure import graph
-from acausal.structure.aliases import AliasFree
+from acausal.structure.equations import Equations
 from acausal.structure.suspects import forgotten_equations, inputs_that_are_set
 
 
-def explain_singularity(
-    model: FlatModel,
-    aliases: AliasFree,
-    incidence: Sequence[Sequence[int]],
-    chains: dict[int, int],
-    origins: Sequence[tuple[Origin, int]],
-    combined: Mapping[int, Sequence[int]],
-) -> str | None:
+def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]) -> str | None:
     """A sentence about a structurally singular model, or None for a sound one.
 
-    A variable and its derivatives count as one unknown (``chains``), so that constraints between states,
-    which index reduction resolves, are not mistaken for singularities. ``combined`` lists the equations that an
-    equation was combined with.
+    A variable and its derivatives count as one unknown, so that constraints between states, which index reduction
+    resolves, are not mistaken for singularities. ``combined`` lists the equations that an equation was combined with.
     """
-    collapsed = [list(dict.fromkeys(chains[v] for v in row if v in chains)) for row in incidence]
+    model, aliases, chains = system.model, system.aliases, system.chains()
+    collapsed = [
+        list(dict.fromkeys(chains[v] for v in row if v in chains)) for row in system.incidence
+    ]
     bottoms = list(dict.fromkeys(chains.values()))
     number = {v: i for i, v in enumerate(bottoms)}
     found = graph.singularity(
@@ -37,7 +32,8 @@ def explain_singularity(
     unknowns = model.n_variables - len(model.inputs)
     parts = [f"structurally singular: {model.n_equations} equations for {unknowns} unknowns"]
     unmatched = [bottoms[i] for i in (found.unmatched_variables if found else ())]
-    missing = [_name(model, aliases, node) for node in unmatched]
+    origins = list(zip(system.origin, system.component, strict=True))
+    missing = [system.name(node) for node in unmatched]
     unmatched_equations = found.unmatched_equations if found else ()
     surplus = [origins[e] for e in unmatched_equations]
     reached = [*(found.equations if found else ())]
@@ -46,11 +42,11 @@ def explain_singularity(
     if missing:
         parts.append(f"undetermined: {listing(missing)}")
     if surplus or aliases.redundant:
-        redundant = [equation_name(model, origin) for origin in (*surplus, *aliases.redundant)]
+        redundant = [model.stated_at(c, o) for o, c in (*surplus, *aliases.redundant)]
         parts.append(f"overdetermined; redundant equations: {listing(dict.fromkeys(redundant), 6)}")
     if related:
         parts.append(
-            f"together with: {listing(dict.fromkeys(equation_name(model, o) for o in related), 6)}"
+            f"together with: {listing(dict.fromkeys(model.stated_at(c, o) for o, c in related), 6)}"
         )
     floating = any(_is_potential(model, node) for node in unmatched)
     excess = bool(surplus or aliases.redundant)
@@ -58,21 +54,6 @@ def explain_singularity(
     if is_set := inputs_that_are_set(model, (*surplus, *aliases.redundant)):
         mend = f"{is_set} {mend}"
     return "; ".join(parts) + f". {mend}"
-
-
-def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:
-    if node < model.n_variables:
-        return model.layout.variable(node)
-    return f"der({_name(model, aliases, int(aliases.base[node]))})"
-
-
-def equation_name(model: FlatModel, stated: tuple[Origin, int]) -> str:
-    """The component and text of an equation, for messages."""
-    origin, component = stated
-    if component < 0:
-        return f"{model.layout.variable(-1 - component).rpartition('.')[0]} ({origin})"
-    path = model.layout.paths[component]
-    return f"{path} ({origin})" if path else str(origin)
 
 
 def _is_potential(model: FlatModel, node: int) -> bool:

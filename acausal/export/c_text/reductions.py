@@ -81,9 +81,7 @@ def _reduce(low: Lowering, operation: TracedOperation, args: list[CArray]) -> li
         return [CArray(shape, kind, lambda i: element(i, zeros), source.cost)]
     buffer = low.new(shape, kind)
     for outer in low.over(shape):
-        total = Read(low.memory.name("s"), None, kind)
-        low.emit(Declare(Buffer(total.name, kind, None)))
-        low.emit(Assign(total, _first(start, kind)))
+        total = _total(low, start, kind)
         for inside in low.over(lengths):
             low.emit(Assign(total, combine(total, element(outer, inside))))
         low.write(buffer, linear(outer, shape), total)
@@ -128,18 +126,25 @@ def _argument(op: str) -> Any:
     return rule
 
 
-def _cumulative(name: str, start: float, reduce: str) -> Any:
+def _total(low: Lowering, start: float, kind: str) -> Read:
+    """A number in which others are combined."""
+    total = Read(low.memory.name("s"), None, kind)
+    low.emit(Declare(Buffer(total.name, kind, None)))
+    low.emit(Assign(total, _first(start, kind)))
+    return total
+
+
+def _cumulative(reduce: str) -> Any:
     def rule(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
         (source,) = args
         axis, reverse = int(operation.params["axis"]), bool(operation.params["reverse"])
         shape, kind = source.shape, operation.outputs[0].kind
-        combine = _COMBINE[reduce][0](low, kind)
+        combine_in, start = _COMBINE[reduce]
+        combine = combine_in(low, kind)
         rest = (*shape[:axis], *shape[axis + 1 :])
         buffer = low.new(shape, kind)
         for outer in low.over(rest):
-            total = Read(low.memory.name("s"), None, kind)
-            low.emit(Declare(Buffer(total.name, kind, None)))
-            low.emit(Assign(total, _first(start, kind)))
+            total = _total(low, start, kind)
             for (i,) in low.over((shape[axis],)):
                 k = add(times(i, -1), integer(shape[axis] - 1)) if reverse else i
                 index = (*outer[:axis], k, *outer[axis:])
@@ -179,9 +184,7 @@ def _dot(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[
     buffer = low.new(shape, kind)
     if _rows_last(a, ca) and (_rows_last(b, cb) or not free_b):
         for out in low.over(shape):
-            total = Read(low.memory.name("s"), None, kind)
-            low.emit(Declare(Buffer(total.name, kind, None)))
-            low.emit(Assign(total, _first(0, kind)))
+            total = _total(low, 0, kind)
             for inside in low.over(lengths):
                 low.emit(Assign(total, term(out, inside), op="+="))
             low.write(buffer, linear(out, shape), total)
@@ -201,10 +204,10 @@ RULES: Mapping[str, Any] = {
     **dict.fromkeys(_COMBINE, _reduce),
     "argmax": _argument(">"),
     "argmin": _argument("<"),
-    "cumsum": _cumulative("cumsum", 0, "reduce_sum"),
-    "cumprod": _cumulative("cumprod", 1, "reduce_prod"),
-    "cummax": _cumulative("cummax", -np.inf, "reduce_max"),
-    "cummin": _cumulative("cummin", np.inf, "reduce_min"),
+    "cumsum": _cumulative("reduce_sum"),
+    "cumprod": _cumulative("reduce_prod"),
+    "cummax": _cumulative("reduce_max"),
+    "cummin": _cumulative("reduce_min"),
     "dot_general": _dot,
 }
 

@@ -89,7 +89,7 @@ def chosen_steps(
     options: FitOptions,
 ) -> StepChoice:
     """The steps whose error is small enough, for some state of the training."""
-    if step.solver is None or options.dt is not None or not isinstance(problem.substeps, int):
+    if step.solver is None or options.dt is not None:
         return step
     allowed = allowed_error(noise or 0.0)
     coarse = np.asarray(problem.simulate(trainable).y)
@@ -101,7 +101,7 @@ def chosen_steps(
 
     if problem.system.events is not None and (error := rough("rk4", coarse)) <= allowed:
         return StepChoice("rk4", 1, error)
-    fine = np.asarray(replace(problem, substeps=2 * problem.substeps).simulate(trainable).y)
+    fine = np.asarray(problem.finer().simulate(trainable).y)
     error = difference(problem, coarse, fine)
     if not np.isfinite(error):
         return step

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import NamedTuple
 
 import jax
@@ -40,7 +39,7 @@ def step_error(problem: Problem, trainable: Trainable, simulated: Simulated) -> 
     """How much twice as many steps change the predictions, as the loss counts it; ``None`` for adaptive steps."""
     if not isinstance(problem.solver, EXPLICIT) or problem.system.events is not None:
         return None
-    fine = replace(problem, substeps=2 * problem.substeps).simulate(trainable)
+    fine = problem.finer().simulate(trainable)
     return difference(problem, np.asarray(simulated.y), np.asarray(fine.y))
 
 

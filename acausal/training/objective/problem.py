@@ -159,6 +159,10 @@ class Problem(Simulator):
         own = self.per_record.expected(trainable.per_record, self.records.count)
         return replace(trainable, per_record=own, states=None, starts=None)
 
+    def finer(self) -> Problem:
+        """The same in steps of half the length."""
+        return replace(self, substeps=2 * self.substeps)
+
     def held_out_loss(self, trainable: Trainable) -> Float[Array, ""]:
         """The loss of these records, which were not trained on, in one simulation of each."""
         return self.simulate(self.over_other_records(trainable)).loss

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,9 +13,6 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.record_elimination import RecordJacobian
 
-PARTS = 2
-"""Steps in the place of each, whose predictions count as exact."""
-
 
 def step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N n_targets"]:
     """What shorter steps change in the predictions; zero for adaptive steps, which know their error.
@@ -26,8 +22,7 @@ def step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N n
     known = np.asarray(problem.simulate(trainable).y)
     if isinstance(problem.solver, Adaptive) or problem.timing.delays:
         return np.zeros_like(known)
-    finer = replace(problem, substeps=PARTS * problem.substeps)
-    return np.asarray(finer.simulate(trainable).y) - known
+    return np.asarray(problem.finer().simulate(trainable).y) - known
 
 
 def largest_move(blocks: Sequence[RecordJacobian], error: Float[np.ndarray, " rows"]) -> float:
