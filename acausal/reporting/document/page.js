@@ -120,7 +120,7 @@ function drawPlot(figure) {
   const number = serial++;
   svg.append("clipPath").attr("id", "clip" + number).append("rect");
   const back = svg.append("g"), inside = svg.append("g").attr("clip-path", `url(#clip${number})`);
-  const shades = inside.append("g"), marks = inside.append("g");
+  const shades = inside.append("g"), marks = inside.append("g"), strips = inside.append("g");
   const xAxis = svg.append("g"), yAxis = svg.append("g");
   const xLabel = svg.append("text").attr("class", "label").attr("text-anchor", "middle").text(spec.xlabel);
   const yLabel = svg.append("text").attr("class", "label").attr("text-anchor", "middle").text(spec.ylabel);
@@ -130,7 +130,7 @@ function drawPlot(figure) {
       .on("click", () => { c.shown = !c.shown; c.key.attr("aria-pressed", c.shown); redraw(); });
     c.key.append("span").text(c.label);
     c.value = c.key.append("output");
-    if (c.ends.length) c.strip = inside.append("path").attr("class", "band " + c.color);
+    if (c.ends.length) c.strip = strips.append("path").attr("class", "band " + c.color);
     c.path = inside.append("path").attr("class", "curve " + c.color);
     if (c.dots) c.dotted = inside.append("g").attr("class", c.color);
     c.spot = svg.append("circle").attr("class", "dot " + c.color).attr("r", 3.5).attr("visibility", "hidden");

@@ -154,11 +154,13 @@ def _marks(frame: _Frame, plot: Plot) -> Iterator[str]:
 
 
 def _drawn(frame: _Frame, curves: Sequence[Curve]) -> Iterator[str]:
-    """The curves, each on its band."""
-    for curve, (kind, color) in zip(curves, colors(curves), strict=True):
+    """The curves, in front of all bands."""
+    styled = list(zip(curves, colors(curves), strict=True))
+    for curve, (kind, color) in styled:
         if curve.band is not None:
             style = f'fill="{color}" fill-opacity="0.22"'
             yield _line(f"band {kind}", _band(frame, curve, *curve.band), style)
+    for curve, (kind, color) in styled:
         style = f'fill="none" stroke="{color}" stroke-width="1.5" stroke-linejoin="round"'
         data = _path(frame.right(curve.x), frame.down(curve.y), curve.steps)
         yield _line(f"curve {kind}", data, style)
