@@ -180,9 +180,7 @@ def test_a_band_stays_within_the_plot_and_says_how_sure_a_law_is(tab: Browser, p
     tab.open(page)
     tab.click("#tab2")
     assert tab.evaluate("document.querySelectorAll('#part2 .shade').length") == 2
-    assert tab.evaluate(
-        "document.querySelector('#part2 .band').closest('[clip-path]') !== null"
-    )
+    assert tab.evaluate("document.querySelector('#part2 .band').closest('[clip-path]') !== null")
     place = tab.middle("#part2 .plot svg")
     tab.move(**place)
     tab.settle()
