@@ -259,14 +259,10 @@ def _sync(folder: Path) -> None:
         os.close(descriptor)
 
 
-def csv_text(columns: Mapping[str, Any], end: str = "\r\n") -> str:
-    """Arrays of one length by header, as text that spreadsheets read.
-
-    Arguments:
-        end: of a line.
-    """
+def csv_text(columns: Mapping[str, Any]) -> str:
+    """Arrays of one length by header, as text that spreadsheets read."""
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator=end)
+    writer = csv.writer(text)
     writer.writerow(columns)
     writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
     return text.getvalue()

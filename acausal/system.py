@@ -16,7 +16,15 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
-from acausal._jax import array, as_key, check_time, floating, is_real, need_double_precision
+from acausal._jax import (
+    array,
+    as_key,
+    check_time,
+    collection_paused,
+    floating,
+    is_real,
+    need_double_precision,
+)
 from acausal.codegen import (
     Field,
     Packed,
@@ -60,6 +68,7 @@ Params = Mapping[str, Any] | Packed
 LOGGER = logging.getLogger(__name__)
 
 
+@collection_paused()
 def compile(  # noqa: A001 (the field's word; reached as ac.compile)
     model: Component,
     *,
@@ -451,10 +460,9 @@ class System(LeavesCaches):
         self,
         params: Params | None = None,
         x0: Mapping[str, Numbers] | Numbers | Literal["steady"] | None = None,
-        u0: Mapping[str, Any] | Numbers | None = None,
+        inputs: Mapping[str, Any] | Numbers | None = None,
         t0: float = 0.0,
         *,
-        inputs: Mapping[str, Any] | Numbers | None = None,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
     ) -> Float[Array, " n_states"]:
@@ -466,20 +474,20 @@ class System(LeavesCaches):
         Arguments:
             x0: states by name (the rest from the model's starts), or all of them as an array, which may leave out the
                 angles of closed loops at its end. ``"steady"`` is the same as ``steady=True``.
-            t0: the initial time [s].
             inputs: the inputs at that time, by name (the rest zero) as numbers or functions of time, or all of them as
-                an array of numbers; by default zero. ``u0`` is another name of it.
+                an array of numbers; by default zero.
+            t0: the initial time [s].
             steady: whether all states without a value in ``x0`` are to be at rest, or the names of those that are. A
                 fixed start stays as it is, and must be one of rest.
             least_squares: whether contradictory conditions are met in the least-squares sense, with fixed
                 starts and rates in nominal values, and initial equations unscaled.
 
         Raises:
-            DataError: if ``x0``, ``u0``, ``t0`` or ``steady`` does not fit.
+            DataError: if ``x0``, ``inputs``, ``t0`` or ``steady`` does not fit.
             InitializationError: if the conditions contradict each other.
         """
         check_time(t0, "t0")
-        packed, u = self.pack(params), self.inputs_at(t0, inputs, u0, "u0")
+        packed, u = self.pack(params), self.inputs_at(t0, inputs)
         x0, steady = (None, True) if isinstance(x0, str) and x0 == "steady" else (x0, steady)
         return self.initializer(packed, x0, u, t0, steady, least_squares)
 
@@ -553,10 +561,9 @@ class System(LeavesCaches):
         self,
         params: Params | None = None,
         x0: Mapping[str, Numbers] | Literal["steady"] | None = None,
-        u0: Mapping[str, Any] | Numbers | None = None,
+        inputs: Mapping[str, Any] | Numbers | None = None,
         t0: float = 0.0,
         *,
-        inputs: Mapping[str, Any] | Numbers | None = None,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
     ) -> Initialization:
@@ -565,35 +572,27 @@ class System(LeavesCaches):
         Arguments and errors as in `initial_state`.
         """
         check_time(t0, "t0")
-        packed, u = self.pack(params), self.inputs_at(t0, inputs, u0, "u0")
+        packed, u = self.pack(params), self.inputs_at(t0, inputs)
         if isinstance(x0, str) and x0 == "steady":
             return self.initializer.report(packed, None, u, t0, True, least_squares)
         return self.initializer.report(packed, x0, u, t0, steady, least_squares)
 
     def inputs_at(
-        self,
-        t: float,
-        inputs: Mapping[str, Any] | Numbers | None,
-        alias: Mapping[str, Any] | Numbers | None = None,
-        argument: str = "u",
+        self, t: float, inputs: Mapping[str, Any] | Numbers | None
     ) -> Float[Array, " n_inputs"]:
         """The inputs at one time as an array, shape (n_inputs,), however a user gives them.
 
         Arguments:
             t: the time, at which functions are evaluated [s].
             inputs: by name, numbers or functions of time (the rest zero), or an array; or None.
-            alias: the same under the older name ``argument``.
 
         Raises:
-            DataError: as `input_values`, and if both are given.
+            DataError: as `input_values`.
         """
-        if inputs is not None and alias is not None:
-            raise DataError(f"inputs and {argument} are the same; leave out {argument}.")
-        given: Any = alias if inputs is None else inputs
-        name = argument if inputs is None else "inputs"
+        given: Any = inputs
         if isinstance(given, Mapping):
             given = {n: v(t) if callable(v) else v for n, v in given.items()}
-        return self.input_values(given, name)
+        return self.input_values(given, "inputs")
 
     def input_values(
         self, u: Mapping[str, Numbers] | Numbers | None = None, argument: str = "u"

@@ -6,8 +6,10 @@ a server of a week, models come and go; their programs would be 2 MB each that n
 
 from __future__ import annotations
 
+import gc
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager, nullcontext
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
@@ -38,7 +40,9 @@ def compiled(function: Callable[P, Result]) -> Callable[P, Result]:
         leaves, tree = jax.tree.flatten((args, kwargs))
         kinds = tuple(map(_kind, leaves))
         key = function, tree, kinds
+        arrays = [leaf for leaf in leaves if isinstance(leaf, ARRAYS)]
         program = _programs.pop(key, None)
+        is_new = program is None
         if program is None:
             constants = [None if isinstance(leaf, ARRAYS) else leaf for leaf in leaves]
 
@@ -53,9 +57,26 @@ def compiled(function: Callable[P, Result]) -> Callable[P, Result]:
         _programs[key] = program
         while len(_programs) > MOST:
             _programs.popitem(last=False)
-        return program([leaf for leaf in leaves if isinstance(leaf, ARRAYS)])
+        with collection_paused() if is_new else nullcontext():
+            return program(arrays)
 
     return call
+
+
+@contextmanager
+def collection_paused() -> Generator[None]:
+    """No search for cyclic garbage while a model or a program is built: of all that is made there, next to none is.
+
+    Deriving the equations of 3,000 masses took 0.95 s of processor time with such searches, and 0.58 s without them.
+    """
+    if not gc.isenabled():
+        yield
+        return
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
 
 
 def _kind(leaf: Any) -> Any:

@@ -374,7 +374,6 @@ Where: TypeAlias = "Mapping[str, ArrayLike] | Float[ArrayLike, ' n_states'] | Op
 def point_of(
     system: System,
     x: Where,
-    u: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None,
     inputs: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None,
     params: Params | None,
     t: float | None,
@@ -382,20 +381,19 @@ def point_of(
     """The values of a model where it is linearized; arguments and errors as of `linearize`."""
     if isinstance(x, OperatingPoint):
         params, t = x.values.packed if params is None else params, x.time if t is None else t
-        inputs = x.u if inputs is None and u is None else inputs
+        inputs = x.u if inputs is None else inputs
         x = x.x
     t = 0.0 if t is None else t
     check_time(t)
-    packed, given = system.pack(params), system.inputs_at(t, inputs, u)
+    packed, given = system.pack(params), system.inputs_at(t, inputs)
     return system.values(t, system.initial_state(packed, x, inputs=given, t0=t), given, packed)
 
 
 def linearize(
     system: System,
     x: Where = None,
-    u: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
-    *,
     inputs: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
+    *,
     outputs: str | Sequence[str] = (),
     params: Params | None = None,
     t: float | None = None,
@@ -407,8 +405,7 @@ def linearize(
         x: states by name (the rest from the model's starts) or all as an array; by default the model's initial state.
             ``"steady"`` is its rest. An `OperatingPoint` gives states, inputs, parameters and time, unless these are
             given, too.
-        inputs: by name, numbers or functions of time (the rest zero), or all as an array; by default zero. ``u`` is
-            another name of it.
+        inputs: by name, numbers or functions of time (the rest zero), or all as an array; by default zero.
         outputs: variables to take as outputs.
         params: parameters, by default the model's own.
         t: time [s], by default 0.
@@ -419,7 +416,7 @@ def linearize(
     """
     need_compiled(system, "linearize")
     outputs = names_in(outputs, "outputs")
-    at = point_of(system, x, u, inputs, params, t)
+    at = point_of(system, x, inputs, params, t)
 
     def rates_and_outputs(x: Array, u: Array) -> tuple[Array, Array]:
         values = at._replace(x=x, u=u)

@@ -79,7 +79,7 @@ def open_loop(
     points = names_in(points, "points")
     opened, sources = system.opened(points)
     names = (*opened.states, *opened.inputs)
-    at = point_of(system, x, None, inputs, params, t)
+    at = point_of(system, x, inputs, params, t)
     known = dict(zip(names, system.read(names, at), strict=True))
     found = linearize(
         opened,

@@ -85,7 +85,7 @@ def c(
             )
         target = target_of(model, None, None, None, outputs or (), None, False, "c")
         real = PRECISION[precision(dtype).name]
-        observed = target_text(target, _name(target.title.replace(" ", "_"), name), "step", real)
+        observed = target_text(target, _name(target.title.replace(" ", "_"), name), real)
         parts = observed.name, target_header(observed), target_source(observed)
     else:
         need_exportable(model, "c")
@@ -158,7 +158,7 @@ def _start(system: System, params: Mapping[str, Any]) -> tuple[np.ndarray, np.nd
     packed = system.pack(params)
     if system.events is None:
         return np.asarray(system.initial_state(params), float), np.zeros(0)
-    u = system.input_values(None, "u0")
+    u = system.inputs_at(0.0, None)
 
     def state(d: Any) -> Any:
         return system.initializer(packed, None, u, 0.0, d=d)

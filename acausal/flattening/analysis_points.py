@@ -39,7 +39,7 @@ def opened(model: FlatModel, names: str | Sequence[str]) -> tuple[FlatModel, tup
     kept = tuple(g for g in groups if len(g))
     return replace(
         model,
-        groups=(*kept, *equalities(sorted(new), "connected: equal potentials")),
+        groups=(*kept, *equalities(sorted(new))),
         inputs=np.concatenate([model.inputs, np.asarray(points, dtype=np.int64)]),
     ), tuple(layout.variable(fed[point][0]) for point in points)
 

@@ -107,17 +107,18 @@ def connection_groups(layout: Layout, connected: ConnectionSets) -> tuple[Equati
             else:
                 equal += [(first, other) for other in others]
     zero = _unconnected_flows(layout, connected.pairs)
-    joined = np.asarray(equal, dtype=np.int64).reshape(-1, 2)
-    groups = [_group(_equality(), joined, "connected: equal potentials")]
+    groups = [*equalities(equal)]
     for inner, rows in sums.items():
         groups.append(_group(_balance(inner), np.asarray(rows), "connected: flows sum to zero"))
     groups.append(_group(balance((1,)), zero[:, None], "unconnected: no flow"))
     return tuple(g for g in groups if len(g))
 
 
-def equalities(pairs: Sequence[tuple[int, int]], text: str) -> tuple[EquationGroup, ...]:
+def equalities(pairs: Sequence[tuple[int, int]]) -> tuple[EquationGroup, ...]:
     """Equations by which pairs of variables are equal."""
-    return (_group(_equality(), np.asarray(pairs, np.int64), text),) if pairs else ()
+    if not pairs:
+        return ()
+    return (_group(_equality(), np.asarray(pairs, np.int64), "connected: equal potentials"),)
 
 
 def feeds(layout: Layout, connected: ConnectionSets) -> dict[int, tuple[int, tuple[int, ...]]]:

@@ -98,8 +98,8 @@ def simulate(
             checked at two points within. What is shorter than 0.4 % of the span and known to none of these, as in a
             function of time, may still be leapt over: give a shorter ``max_step`` then. Not beside ``dt``.
         adjoint: ``diffrax.ForwardMode()`` allows derivatives in forward mode (`jax.jvp`, `jax.jacfwd`) for fixed steps,
-            and second ones for adaptive steps, which have first ones in both modes without it. Any other is of no use
-            for adaptive steps, and deprecated there.
+            and second ones for adaptive steps, which have first ones in both modes without it. Others change
+            nothing in adaptive steps.
         dtype: precision of time, states and parameters in the steps, float64 or float32. Single precision takes
             half the time in large batches; in adaptive steps ``rtol`` should not be below 1e-5.
 
@@ -154,12 +154,6 @@ def simulate(
         solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
         _warn_of_another_solution(solution)
         return solution
-    if adjoint is not None and not forward and system.events is None and ends is None:
-        warnings.warn(
-            "Adaptive steps have derivatives in both modes: leave out adjoint=, which will be removed.",
-            DeprecationWarning,
-            stacklevel=user_level(),
-        )
     if saved is None:
         saved = np.linspace(start, end, POINTS) if ends is None else ends
     chosen = None

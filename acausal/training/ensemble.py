@@ -22,12 +22,12 @@ from acausal.training.objective.initial_state import InitialState
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.preparation import prepare
 from acausal.training.presentation.page_of_several import prediction_blocks, several_content
+from acausal.training.record_fit import of_other_records
 from acausal.training.result import Fit
 from acausal.training.streaming import need_one_training
 from acausal.training.train_from_starts import run
 from acausal.training.uncertainty.bumps import SIGMAS
 from acausal.training.uncertainty.confidence import BAND_POINTS, Band
-from acausal.training.uncertainty.conformal import predicted
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -79,9 +79,20 @@ class Ensemble:
     def predict(
         self, data: Data | Mapping[str, ArrayLike], x0: InitialState = "auto"
     ) -> dict[str, Band]:
-        """The same over another record; arguments as those of `Fit.conformal`."""
-        found = [one for f in self.fits for one in predicted(f.problem, f.trained, data, x0)]
-        return self._predictions(found[0].time, [one.y for one in found])
+        """The same over another record.
+
+        Arguments:
+            data: the record, with inputs and targets.
+            x0: the state at its start: ``"auto"`` as measured, and as the model starts where it is not, ``"data"`` as
+                measured, ``"model"`` as the model starts, ``"steady"`` at rest, or values by name that replace the
+                measured ones.
+
+        Raises:
+            DataError: if the record lacks what is needed.
+        """
+        found = [of_other_records(f.problem, f.trained, data, x0) for f in self.fits]
+        records = [one for members in found for one in members.values()]
+        return self._predictions(records[0].time, [one.predicted for one in records])
 
     def _predictions(
         self, time: Float[np.ndarray, " N"], ys: Sequence[Float[np.ndarray, "N n_targets"]]

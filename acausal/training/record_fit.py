@@ -8,6 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from acausal.data import RecordsLike, records_of
+from acausal.training.objective.held_out import over
+from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.uncertainty.residuals import Piece, Residuals, residuals
@@ -82,6 +85,16 @@ def residuals_of(records: Sequence[RecordFit]) -> tuple[Residuals, ...]:
         if pieces:
             found.append(residuals(name, pieces, float(records[0].sigma[i])))
     return tuple(found)
+
+
+def of_other_records(
+    problem: Problem, trained: Trainable, data: RecordsLike, x0: InitialState
+) -> dict[str, RecordFit]:
+    """The results of a training for other records, each in one simulation; errors as of `over`."""
+    records = {n: d.for_system(problem.system) for n, d in records_of(data).items()}
+    other = over(problem, records, x0)
+    known = other.over_other_records(trained)
+    return of_records(other, known, other.simulate(known))
 
 
 def of_records(

@@ -112,20 +112,22 @@ class Fit(TrainedModel):
         level: float = 0.9,
         x0: InitialState = "auto",
     ) -> Conformal:
-        """Bands around predictions that hold a share of all measurements, calibrated on other records.
+        """How wide bands around predictions must be to hold a share of all measurements, measured on other records.
+
+        ``predict(data, conformal=...)`` takes them.
 
         Arguments:
             data: one record or several, with inputs and targets, that the training has never used, not even to choose
                 the best (``validation``).
             level: the share, in (0, 1).
-            x0: the state at a record's start: ``"auto"`` as measured, and as the model starts where it is not,
-                ``"data"`` as measured, ``"model"`` as the model starts, ``"steady"``
-                at rest, or values by name that replace the measured ones; or such a choice by record.
+            x0: the state at a record's start, as of `predict`.
 
         Raises:
             DataError: if the record is too short for the level, or lacks what is needed.
         """
-        return conformal(self.problem, self.trained, data, level, x0)
+        found = self.predict(data, x0)
+        units = {n: self.system.unit(n) for n in self.problem.targets}
+        return conformal(found, units, level)
 
     def predict(
         self,

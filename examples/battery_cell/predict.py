@@ -90,7 +90,7 @@ def begin(
     system: ac.System, params: Mapping[str, Any], u: Float[Array, " n_inputs"], lead: float
 ) -> Float[Array, " n_states"]:
     """The state at the first row: the cell was at rest this long before."""
-    x = system.initial_state(params, u0=u)
+    x = system.initial_state(params, inputs=u)
     rate = system.vector_field(0.0, x, u, params)
     later = system.vector_field(lead, x + lead * rate, u, params)
     return x + lead / 2 * (rate + later)

@@ -287,7 +287,7 @@ def in_casadi(vehicle: Vehicle) -> list[Row]:
         function = casadi.DaeBuilder("vehicle", folder).create("rates", ["x", "u"], ["ode"])
         jacobian = function.factory("jacobian", ["x", "u"], ["jac:ode:x"])
         x, u = (a[0] for a in vehicle.points)
-        there = ac.linearize(vehicle.system, x=x, u=u, params=vehicle.params).A
+        there = ac.linearize(vehicle.system, x=x, inputs=u, params=vehicle.params).A
         apart = np.abs(np.array(jacobian(x, u)) - there).max() / np.abs(there).max()
         seconds, off = (
             timed(lambda: function(x, u)),

@@ -122,7 +122,7 @@ def test_wrong_names_are_refused(linearized: ac.Linearization) -> None:
     with pytest.raises(ac.DataError, match=r"'mass\.x' is not a state; did you mean 'mass\."):
         ac.linearize(system, {"mass.x": 1.0})
     with pytest.raises(ac.DataError, match=r"'drive\.F' is not an input"):
-        ac.linearize(system, u={"drive.F": 1.0})
+        ac.linearize(system, inputs={"drive.F": 1.0})
     with pytest.raises(ac.DataError, match=r"^t='now' is not a time"):
         ac.linearize(system, t="now")  # type: ignore[arg-type]
     with pytest.raises(ac.DataError, match=r"^outputs: 3 is not a name"):
@@ -132,13 +132,10 @@ def test_wrong_names_are_refused(linearized: ac.Linearization) -> None:
 # -- one vocabulary --------------------------------------------------------------------------------
 
 
-def test_inputs_and_u_are_the_same() -> None:
+def test_inputs_are_functions_of_time_or_an_array() -> None:
     system = ac.compile(Oscillator())
     by_name = ac.linearize(system, inputs={"drive.f": lambda t: 2.0 * t}, t=1.5)
-    by_alias = ac.linearize(system, u=[3.0], t=1.5)
-    np.testing.assert_array_equal(by_name.u, by_alias.u)
-    with pytest.raises(ac.DataError, match="inputs and u are the same"):
-        ac.linearize(system, u=[3.0], inputs=[3.0])
+    np.testing.assert_array_equal(by_name.u, ac.linearize(system, inputs=[3.0], t=1.5).u)
 
 
 def test_a_model_is_linearized_at_rest() -> None:

@@ -730,7 +730,7 @@ def test_a_flange_is_initialized_and_driven_by_signals():
     system = ac.compile(Model())
     given = {"start.phi_start": 1.0, "start.w_start": 2.0, "adaptor.f": 6.0}
     u = jnp.asarray([given[name] for name in system.inputs])
-    x = system.initial_state(u0=u)
+    x = system.initial_state(inputs=u)
     signals = [f"adaptor.{name}" for name in ("p", "pder", "pder2")]
     values = system.observe(signals, 0.0, x, u, system.parameters())
     assert np.allclose(values, [1.0, 2.0, -3.0])  # f is positive into the adaptor

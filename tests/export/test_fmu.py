@@ -79,7 +79,9 @@ class Case:
     def matrix(self) -> np.ndarray:
         """Derivatives of rates and outputs by states and inputs."""
         u = np.full(len(self.system.inputs), 0.3)
-        at = ac.linearize(self.system, x=self.start, u=u, outputs=self.outputs, params=self.params)
+        at = ac.linearize(
+            self.system, x=self.start, inputs=u, outputs=self.outputs, params=self.params
+        )
         return np.block([[at.A, at.B], [at.C, at.D]])
 
 
@@ -274,7 +276,7 @@ def test_casadi_reads_it_and_differentiates_it(
     wanted = ["jac:ode:x", "jac:ode:u", "jac:y:x", "jac:y:u"]
     x, u = start_of(vehicle), np.array([0.3])
     found = function.factory("jacobian", ["x", "u"], wanted)(x, u)
-    there = ac.linearize(vehicle, x=x, u=u, outputs=names)
+    there = ac.linearize(vehicle, x=x, inputs=u, outputs=names)
     for ours, theirs in zip(found, (there.A, there.B, there.C, there.D), strict=True):
         scale = max(1.0, float(np.abs(theirs).max()))
         np.testing.assert_allclose(np.array(ours), theirs, atol=1e-10 * scale, rtol=1e-10)

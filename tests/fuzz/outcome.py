@@ -154,7 +154,7 @@ def drive(system: ac.System, seed: int) -> str:
     are simulated if a value is not finite.
     """
     u = jnp.zeros(len(system.inputs))
-    x = np.asarray(system.initial_state(u0=u))
+    x = np.asarray(system.initial_state(inputs=u))
     finite = np.isfinite(x).all() and finite_at(system, x, u)
     if finite and seed % 8:
         return ""

@@ -128,7 +128,7 @@ def test_conditions_use_the_inputs():
             c=Fixed(),
         )
     )
-    np.testing.assert_allclose(system.initial_state(u0=[8.0]), [2.0, 0.0], atol=1e-9)
+    np.testing.assert_allclose(system.initial_state(inputs=[8.0]), [2.0, 0.0], atol=1e-9)
 
 
 def test_a_dummy_states_fixed_start_sets_the_state():
@@ -302,36 +302,36 @@ def hanging_system():
 
 
 def test_at_rest(hanging_system):
-    at_rest = hanging_system.initial_state(u0=[2.0], steady=True)
+    at_rest = hanging_system.initial_state(inputs=[2.0], steady=True)
     np.testing.assert_allclose(at_rest, [1.5, 0.0], atol=1e-12)
-    derivative = jax.jacfwd(lambda f: hanging_system.initial_state(u0=jnp.array([f]), steady=True))(
-        2.0
-    )
+    derivative = jax.jacfwd(
+        lambda f: hanging_system.initial_state(inputs=jnp.array([f]), steady=True)
+    )(2.0)
     np.testing.assert_allclose(derivative, [0.25, 0.0], atol=1e-12)
 
 
-@pytest.mark.parametrize("u0", [{"f.f": 2.0}, {"f.f": jnp.asarray(2.0)}, [2.0], np.array([2])])
-def test_inputs_at_the_start_by_name_or_in_order(hanging_system, u0):
-    found = hanging_system.initialize(u0=u0, steady=True)
+@pytest.mark.parametrize("inputs", [{"f.f": 2.0}, {"f.f": jnp.asarray(2.0)}, [2.0], np.array([2])])
+def test_inputs_at_the_start_by_name_or_in_order(hanging_system, inputs):
+    found = hanging_system.initialize(inputs=inputs, steady=True)
     np.testing.assert_allclose(found.x, [1.5, 0.0], atol=1e-12)
 
 
 @pytest.mark.parametrize(
-    ("u0", "told"),
+    ("inputs", "told"),
     [
-        ({"f.F": 1.0}, r"^u0: 'f\.F' is not an input; did you mean 'f\.f'\?$"),
-        ([1.0, 2.0], r"^u0 has shape \(2,\); the model has the inputs \(f\.f\)$"),
+        ({"f.F": 1.0}, r"^inputs: 'f\.F' is not an input; did you mean 'f\.f'\?$"),
+        ([1.0, 2.0], r"^inputs has shape \(2,\); the model has the inputs \(f\.f\)$"),
         (
             {"f.f": "much"},
-            r"^u0=\{'f.f': 'much'\} are not inputs at one time; give real numbers\.$",
+            r"^inputs=\{'f.f': 'much'\} are not inputs at one time; give real numbers\.$",
         ),
-        ({"f.f": [1.0, 2.0]}, r"^u0 has shape \(1, 2\)"),
+        ({"f.f": [1.0, 2.0]}, r"^inputs has shape \(1, 2\)"),
     ],
 )
-def test_inputs_that_do_not_fit_are_told(hanging_system, u0, told):
+def test_inputs_that_do_not_fit_are_told(hanging_system, inputs, told):
     for find in (hanging_system.initialize, hanging_system.initial_state):
         with pytest.raises(ac.DataError, match=told):
-            find(u0=u0, steady=True)
+            find(inputs=inputs, steady=True)
 
 
 @pytest.mark.parametrize(
@@ -361,7 +361,7 @@ def test_a_whole_state_that_is_not_finite_is_told(hanging_system):
 
 
 def test_some_states_at_rest(hanging_system):
-    found = hanging_system.initialize(x0={"m.v": 2.0}, u0=[0.0], steady=["m.v"])
+    found = hanging_system.initialize(x0={"m.v": 2.0}, inputs=[0.0], steady=["m.v"])
     np.testing.assert_allclose(found.x, [0.75, 2.0])
     assert found.roles == ("computed", "given")
     assert found.conditions == ("der(m.v) = 0",)

@@ -124,15 +124,10 @@ def test_a_simulation_starts_at_rest() -> None:
     np.testing.assert_allclose(run.x[0], [0.1, 0.0], atol=1e-12)
     for same in (
         system.initial_state(x0="steady", inputs={PUSH: 5.0}),
-        system.initialize(x0="steady", u0=[5.0]).x,
+        system.initialize(x0="steady", inputs=[5.0]).x,
         system.initialize(inputs={PUSH: lambda t: 2.5 * t}, t0=2.0, steady=True).x,
     ):
         np.testing.assert_allclose(run.x[0], same, atol=1e-12)
-
-
-def test_inputs_are_named_once() -> None:
-    with pytest.raises(ac.DataError, match="inputs and u0 are the same; leave out u0"):
-        plain().initial_state(u0=[1.0], inputs=[1.0])
 
 
 @pytest.mark.slow

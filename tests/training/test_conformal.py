@@ -37,14 +37,13 @@ def trained() -> ac.Fit:
 def test_a_band_holds_its_share_of_a_third_record():
     _, calibration, third = rides()
     band = trained().conformal(calibration, LEVEL)
-    told = band.predict(third)
-    for name, held in band.coverage(third).items():
-        inside = (third[name] >= told[name].low) & (third[name] <= told[name].high)
-        assert held == np.mean(inside)
+    told = trained().predict(third, conformal=band)["record"]
+    for name, held in told.inside.items():
+        low, high = told.bands[name].bounds
         deviation = np.sqrt(LEVEL * (1 - LEVEL) / band.independent[name])
         assert abs(held - LEVEL) < 3 * np.sqrt(2) * deviation + 1 / band.independent[name] < 0.15
         assert not trained().residuals()[0].is_white
-        np.testing.assert_allclose(told[name].high - told[name].middle, band.width[name])
+        np.testing.assert_allclose(high - low, 2 * band.width[name])
     assert "hold 90 % of" in repr(band)
 
 

@@ -29,14 +29,13 @@ class TargetText:
     """What the files of a target say.
 
     Attributes:
-        target: the function. name: of the struct, and before the names of functions. verb: what the function is called.
+        target: the function. name: of the struct, and before the names of functions.
         precision: "double" or "float".
         function: its body. memory: its tables and helper functions.
     """
 
     target: Target
     name: str
-    verb: str
     precision: str
     function: CFunction
     memory: Workspace
@@ -55,7 +54,7 @@ class TargetText:
         return sum(map(_size, self.target.outputs))
 
 
-def target_text(target: Target, name: str, verb: str, precision: str) -> TargetText:
+def target_text(target: Target, name: str, precision: str) -> TargetText:
     """What is written about a target.
 
     Raises:
@@ -73,7 +72,7 @@ def target_text(target: Target, name: str, verb: str, precision: str) -> TargetT
     ]
     results = [(Buffer(f"next_{p.name}", "real", _size(p)), 0) for p in target.outputs]
     function = write_function(block, arguments, results, memory)
-    return TargetText(target, name, verb, precision, function, memory)
+    return TargetText(target, name, precision, function, memory)
 
 
 def target_header(text: TargetText) -> str:
@@ -88,7 +87,7 @@ def target_header(text: TargetText) -> str:
             "",
             f"   {name} m;         all that it needs; nothing is allocated or shared",
             f"   {name}_init(&m);  what it remembers, as at the beginning; the rest is no number",
-            f"   {name}_{text.verb}(&m);  from {', '.join(f'm.{p.name}' for p in given)}"
+            f"   {name}_step(&m);  from {', '.join(f'm.{p.name}' for p in given)}"
             + (f"; moves {', '.join(f'm.{n}' for n in remembered)} on" if remembered else ""),
             "",
             f"   It gives {upper}_NOT_FINITE, and changes nothing, where a result is no finite number. */",
@@ -106,7 +105,7 @@ def target_header(text: TargetText) -> str:
             f"}} {name};",
             "",
             f"void {name}_init({name} *m);",
-            f"{name}_status {name}_{text.verb}({name} *m);",
+            f"{name}_status {name}_step({name} *m);",
             "",
             "#endif",
             "",
@@ -132,7 +131,7 @@ def _source(text: TargetText) -> Iterator[str]:
     for port in _fields(target):
         yield from _filled(port, defaults.get(port.name))
     yield from ("}", "")
-    yield f"{name}_status {name}_{text.verb}(Model *m) {{"
+    yield f"{name}_status {name}_step(Model *m) {{"
     for port in target.inputs:
         if mentions(text.function.lines, port.name):
             star = "*const " if port.shape else ""
