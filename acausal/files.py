@@ -245,9 +245,12 @@ def _flaw(text: str) -> str:
     if "\0" in text:
         return "has a null character"
     try:
-        os.fsencode(text)
+        os.lstat(text)
     except UnicodeEncodeError:
         return "has a character that no file name can have"
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            return "is too long"
     return ""
 
 

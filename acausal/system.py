@@ -421,19 +421,15 @@ class System(LeavesCaches):
 
     def read(self, names: Sequence[str], values: Values) -> Float[Array, " n_names"]:
         """Variables by dotted name, shape (len(names),)."""
-        nodes, signs = self._find_all(names)
+        nodes, signs = self.nodes_of(names)
         y = read(self.program, nodes, values)
         return y if (signs == 1).all() else y * signs
-
-    def iterates(self, names: Sequence[str]) -> bool:
-        """Whether variables are found by iteration: they depend on an algebraic loop that is not linear."""
-        return self.program.iterates(self._find_all(names)[0])
 
     def rates_and_read(
         self, names: Sequence[str], values: Values
     ) -> tuple[Float[Array, " n_states"], Float[Array, " n_names"]]:
         """Both; shared values are computed once."""
-        nodes, signs = self._find_all(names)
+        nodes, signs = self.nodes_of(names)
         dx, y = rates_and_read(self.program, nodes, values)
         return dx, y if (signs == 1).all() else y * signs
 
@@ -453,7 +449,7 @@ class System(LeavesCaches):
             values: the point, from `values`.
             names: the variables whose equations are looked at; by default the derivatives of the states.
         """
-        nodes = None if names is None else self._find_all(names)[0]
+        nodes = None if names is None else self.nodes_of(names)[0]
         return explain_nonfinite(self.program, values, self.reduced.name, nodes)
 
     def initial_state(
@@ -647,8 +643,8 @@ class System(LeavesCaches):
             raise ModelError(f"the model does not differentiate '{name.removeprefix('der(')[:-1]}'")
         return found
 
-    def _find_all(self, names: str | Sequence[str]) -> tuple[list[int], np.ndarray]:
-        """Nodes and signs of variables and known derivatives."""
+    def nodes_of(self, names: str | Sequence[str]) -> tuple[list[int], np.ndarray]:
+        """Nodes of variables and known derivatives in the flat model, and their signs relative to these."""
         found = [self._find(name) for name in names_in(names)]
         return [node for node, _ in found], np.asarray([sign for _, sign in found])
 

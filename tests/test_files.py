@@ -114,6 +114,7 @@ def test_what_no_file_can_be_called_is_refused(function: str):
     for path, flaw in (
         ("", "it is empty"),
         ("a\0b.svg", "it has a null character"),
+        ("x" * 5000, "it is too long"),
         ("a\ud800.svg", "it has a character that no file name can have"),
     ):
         with pytest.raises(ac.AcausalError) as error:

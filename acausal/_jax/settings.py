@@ -6,6 +6,7 @@ They are made while JAX is being imported, see `at_import`: what they need impor
 from __future__ import annotations
 
 import os
+from importlib.util import find_spec
 
 from acausal.errors import AcausalError
 
@@ -22,7 +23,9 @@ def configure() -> None:
 
     if "JAX_ENABLE_X64" not in os.environ:
         jax.config.update("jax_enable_x64", True)
-    xla.choose_options(os.environ, jaxlib_version)
+    xla.choose_options(
+        os.environ, jaxlib_version, other_devices=find_spec("jax_plugins") is not None
+    )
     compilation_cache.begin(os.environ)
 
 

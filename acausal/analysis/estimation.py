@@ -28,7 +28,7 @@ from acausal.simulation import Solution
         "log_likelihood", "noise", "sensors", "parameters", "filtered",
     ],
     meta_fields=["system"],
-    drop_fields=["functions", "_observed", "path"],
+    drop_fields=["functions", "_observed", "_arrays", "path"],
 )  # fmt: skip
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Estimation(Solution):

@@ -25,6 +25,7 @@ from acausal.codegen.interpreter import (
     rates_and_read as rates_and_read,
     rates_from as rates_from,
     read as read,
+    read_and_keep as read_and_keep,
     run as run,
 )
 from acausal.codegen.iteration_matrix import (

@@ -11,6 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from acausal.codegen.reading import taken
 from acausal.flattening import Integers, LeavesCaches
 from acausal.structure import color_columns, long_rows
 
@@ -68,7 +69,7 @@ class ColoredPattern(LeavesCaches):
 
             rows = jax.lax.map(row, jnp.asarray(self.long_rows))
             found = jnp.concatenate([found, rows.ravel()])
-        return found.at[self._places].get(mode="promise_in_bounds", unique_indices=True)
+        return taken(found, self._places)
 
     @cached_property
     def _places(self) -> Integers:

@@ -7,7 +7,7 @@ They are data: the operation, and where its arguments lie. `acausal.codegen.inte
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -259,6 +259,17 @@ class SolveSparseLoop(LeavesCaches):
     scale: np.ndarray
 
     outputs = 1
+
+    @cached_property
+    def at_origin(self) -> tuple[SparseFormula, ...]:
+        """The formulas where all unknowns are zero."""
+
+        def one(f: SparseFormula) -> SparseFormula:
+            zero = {symbol: sp.S.Zero for symbol, _ in f.inner}
+            found = [e.xreplace(zero) for e in (f.residual, *f.partials)]
+            return replace(f, residual=found[0], partials=tuple(found[1:]), inner=())
+
+        return tuple(map(one, self.formulas))
 
     @property
     def size(self) -> int:

@@ -43,6 +43,20 @@ def read(program: Program, nodes: Sequence[int], values: Values) -> Float[Array,
     return jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
 
 
+def read_and_keep(
+    program: Program,
+    nodes: Sequence[int],
+    values: Values,
+    known: Mapping[int, Array],
+    kept: Sequence[int],
+) -> tuple[Float[Array, " n_nodes"], dict[int, Array]]:
+    """Values of some nodes, and some of the arrays that are computed on the way, by number; others are known."""
+    wanted = program.gather(nodes)
+    arrays = run(program, wanted.sources, values, known)
+    found = jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
+    return found, {number: arrays[number] for number in kept}
+
+
 def rates_and_read(
     program: Program, nodes: Sequence[int], values: Values
 ) -> tuple[Float[Array, " n_states"], Float[Array, " n_nodes"]]:
@@ -96,15 +110,30 @@ def execute(instruction: Instruction, values: Values, arrays: Arrays) -> list[Ar
     return _EXECUTE[type(instruction)](instruction, values, arrays)
 
 
-def run(program: Program, wanted: Iterable[int], values: Values) -> list[Any]:
-    """The arrays after the instructions that the wanted ones depend on."""
+def run(
+    program: Program,
+    wanted: Iterable[int],
+    values: Values,
+    known: Mapping[int, Array] | None = None,
+) -> list[Any]:
+    """The arrays after the instructions that the wanted ones depend on, where some of these may be known."""
+    if known:
+        return _run_on(program, wanted, values, known)
     return _run(program, tuple(sorted(set(wanted))), values)
 
 
 @with_kept_traces
 def _run(program: Program, wanted: tuple[int, ...], values: Values) -> list[Any]:
+    return _run_on(program, wanted, values, {})
+
+
+def _run_on(
+    program: Program, wanted: Iterable[int], values: Values, known: Mapping[int, Array]
+) -> list[Any]:
     arrays = _known(program, values)
-    for i in program.needed(wanted):
+    for number, array in known.items():
+        arrays[number] = array
+    for i in program.needed(wanted, known):
         with jax.named_scope(f"{INSTRUCTION}{i}"):
             _fill(program, arrays, i, execute(program.instructions[i], values, arrays))
     return arrays

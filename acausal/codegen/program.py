@@ -6,7 +6,7 @@ states, the inputs, a zero, the discrete variables, then those that the instruct
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -90,19 +90,24 @@ class Program(LeavesCaches):
         n = len(self.nodes)
         return {source % n for source in sources if source // n == copy}
 
-    def needed(self, arrays: Iterable[int]) -> list[int]:
-        """The instructions, in order, that some arrays depend on."""
-        wanted, active = set(arrays), list[int]()
+    def needed(self, arrays: Iterable[int], known: Collection[int] = ()) -> list[int]:
+        """The instructions, in order, that some arrays depend on; of what is known, none."""
+        wanted, active = set(arrays).difference(known), list[int]()
         for i in range(len(self.instructions) - 1, -1, -1):
             instruction, first = self.instructions[i], self.first[i]
             if wanted.intersection(range(first, first + instruction.outputs)):
                 active.append(i)
-                wanted.update(instruction.sources)
+                wanted.update(set(instruction.sources).difference(known))
         return active[::-1]
 
-    def iterates(self, nodes: Sequence[int]) -> bool:
-        """Whether values of some nodes depend on loops that are not linear."""
-        some = [self.instructions[i] for i in self.needed(self.gather(nodes).sources)]
+    def filled(self, arrays: Iterable[int], known: Collection[int] = ()) -> tuple[int, ...]:
+        """The arrays that are computed where some are, if others are known."""
+        pairs = [(self.first[i], self.instructions[i].outputs) for i in self.needed(arrays, known)]
+        return tuple(first + k for first, count in pairs for k in range(count))
+
+    def iterates(self, arrays: Iterable[int], known: Collection[int] = ()) -> bool:
+        """Whether some arrays depend on loops that are not linear, if others are known."""
+        some = [self.instructions[i] for i in self.needed(arrays, known)]
         return any(not isinstance(one, ExplicitInstruction) and not one.is_linear for one in some)
 
     @cached_property

@@ -8,7 +8,7 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 import sympy as sp
-from jax import Array
+from jax import Array, lax
 from jax.typing import ArrayLike
 
 from acausal.codegen.gather import Gather, IndexRuns, Interleaved, One, Signed, Take
@@ -18,6 +18,11 @@ from acausal.codegen.values import Packed
 from acausal.modeling import INITIAL, time
 
 Arrays = Sequence[Array]
+
+ELEMENTS = lax.GatherDimensionNumbers(
+    offset_dims=(), collapsed_slice_dims=(0,), start_index_map=(0,)
+)
+"""Single elements of an array of one axis."""
 
 
 def read_elements(gather: Gather, arrays: Arrays) -> Array:
@@ -103,8 +108,19 @@ def _interleaved(gather: Interleaved, arrays: Arrays) -> Array:
 def _take(gather: Take, arrays: Arrays) -> Array:
     pieces = [jnp.atleast_1d(arrays[s]) for s in gather.sources]
     whole = pieces[0] if len(pieces) == 1 else jnp.concatenate(pieces)
-    unique = len(np.unique(gather.index)) == len(gather.index)
-    return whole.at[gather.index].get(mode="promise_in_bounds", unique_indices=unique)
+    return taken(whole, gather.index)
+
+
+def taken(whole: Array, index: np.ndarray) -> Array:
+    """``whole[index]`` in one operation, where JAX would write five: it knows of no index that it is not negative."""
+    return lax.gather(
+        whole,
+        index[:, None].astype(np.int32),
+        ELEMENTS,
+        slice_sizes=(1,),
+        unique_indices=len(np.unique(index)) == len(index),
+        mode="promise_in_bounds",
+    )
 
 
 def _signed(gather: Signed, arrays: Arrays) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -16,7 +16,7 @@ from jax import Array
 from acausal.codegen.instructions import SolveSparseLoop, SparseFormula
 from acausal.codegen.lower import evaluate
 from acausal.codegen.newton import root
-from acausal.codegen.reading import Arrays, fill, read_elements
+from acausal.codegen.reading import Arrays, fill, read_elements, taken
 from acausal.codegen.sparse import SparseMatrix
 from acausal.codegen.values import Values
 from acausal.structure import Pattern
@@ -24,10 +24,12 @@ from acausal.structure import Pattern
 
 def solve_sparse_loop(loop: SolveSparseLoop, values: Values, arrays: Arrays) -> list[Array]:
     """The unknowns, as one array."""
-    solve = _linear if loop.is_linear else _nonlinear
     dtype = values.x.dtype
     guess, scale = jnp.asarray(loop.guess, dtype), jnp.asarray(loop.scale, dtype)
-    return [solve(_equations(loop, values, arrays), guess, scale)]
+    if loop.is_linear:
+        at_origin = _equations(replace(loop, formulas=loop.at_origin), values, arrays)
+        return [_linear(at_origin, jnp.zeros_like(guess))]
+    return [_nonlinear(_equations(loop, values, arrays), guess, scale)]
 
 
 def nearest_of_sparse_loop(
@@ -60,7 +62,7 @@ def _equations(loop: SolveSparseLoop, values: Values, arrays: Arrays) -> _Sparse
         return [
             jnp.broadcast_to(jnp.asarray(evaluate(e, filled), dtype=z.dtype), (f.size,))
             for f, own in zip(loop.formulas, known, strict=True)
-            for filled in [own | {symbol: z[places] for symbol, places in f.inner}]
+            for filled in [own | {symbol: taken(z, places) for symbol, places in f.inner}]
             for e in expressions(f)
         ]
 
@@ -116,9 +118,7 @@ _Functions = tuple[Callable[[Array], Array], Callable[[Array], Array]]
 """Residuals and entries of the Jacobian, as pytrees of all values that they read."""
 
 
-def _linear(equations: _Sparse, guess: Array, scale: Array) -> Array:
-    del scale
-    origin = jnp.zeros_like(guess)
+def _linear(equations: _Sparse, origin: Array) -> Array:
     return equations.matrix.solve(equations.entries(origin), -equations.residual(origin))
 
 

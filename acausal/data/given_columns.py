@@ -112,7 +112,7 @@ def _times(given: ArrayLike, what: str, unit: str) -> Float[np.ndarray, " n"]:
     Raises:
         DataError: for what is no time base.
     """
-    if isinstance(given, np.ma.MaskedArray):
+    if np.ma.is_masked(given):
         raise DataError(f"{what} has masked times; leave these samples out.")
     try:
         ts = np.asarray(given)
@@ -193,7 +193,7 @@ def _masks(given: object, measured: Mapping[str, GivenSignal]) -> Mapping[str, n
 
 def _present(name: str, samples: Any, mask: np.ndarray | None) -> Any:
     """Samples with NaN for those that do not count."""
-    if isinstance(samples, np.ma.MaskedArray):
+    if np.ma.is_masked(samples):
         raise DataError(
             f"'{name}' is a masked array; give its data, and mask={{'{name}': ~samples.mask}}."
         )

@@ -22,7 +22,7 @@ from acausal.data.by_signal import (
 )
 from acausal.data.formats import Formats
 from acausal.data.given_columns import Missing, check_table, columns_of
-from acausal.data.readers import SignalTable, frame_units, is_data_frame
+from acausal.data.readers import SignalTable, is_data_frame, units_said
 from acausal.data.samples import is_uniform
 from acausal.data.signal import Beyond, Interpolation, Signal
 from acausal.errors import DataError, listing, nearest, shown, user_level
@@ -50,8 +50,8 @@ class Data(ByName, Formats):
         signals: by name, samples of shape (n,), or a pair (times, samples) of a signal with times of its own; or a
             pandas DataFrame with a column for each. Times of two signals that differ by less than 1e-6 of the local
             sample time are one.
-        units: unit of every signal by name; by default those of a DataFrame's ``attrs["units"]``, else the model's
-            units are assumed. That of ``"time"`` holds for all times.
+        units: unit of every signal by name; by default those of a DataFrame's ``attrs["units"]`` or of the signals'
+            own, as xarray has them, else the model's units are assumed. That of ``"time"`` holds for all times.
         interpolation: of inputs between samples, one choice for all or by name, as of an
             `acausal.Signal`: ``"linear"``, ``"previous"``, ``"cubic"`` or ``"band-limited"``. Where nothing is
             chosen it is linear, and cubic for an input that the model differentiates.
@@ -90,7 +90,7 @@ class Data(ByName, Formats):
         missing: Missing = "refuse",
         mask: Mapping[str, ArrayLike] | None = None,
     ) -> None:
-        units = check_units(frame_units(signals) if units is None else units)
+        units = check_units(units_said(signals) if units is None else units)
         unit_of_time = (units or {}).get("time", "s")
         ts, columns, missing = columns_of(time, signals, missing, mask, unit_of_time)
         ts = convert(ts, unit_of_time, "s", "'time'")

@@ -19,7 +19,7 @@ from jax.typing import ArrayLike as Scalar
 from jaxtyping import Array, Float, Int
 from numpy.typing import ArrayLike
 
-from acausal._jax import array, is_real, traced
+from acausal._jax import array, is_number, is_real, traced
 from acausal.data.band_limited import (
     DEGREE,
     FRACTIONS,
@@ -114,6 +114,10 @@ class Signal(eqx.Module):
             check_choice(f"'{name}'", "extrapolation", extrapolation, get_args(Extrapolation))
         if isinstance(ts, jax.Array) and not is_real(ts):  # keys, of which NumPy makes nothing
             raise DataError(f"'{name}' has the times {shown(ts)}; give real numbers.")
+        if np.ma.is_masked(ts) or np.ma.is_masked(values):
+            raise DataError(
+                f"'{name}' is masked; leave out the samples that are, with their times."
+            )
         if not traced(ts):
             check_time_base(np.asarray(ts), f"'{name}'")
         check_samples(values, np.shape(ts), f"'{name}'")
@@ -153,7 +157,7 @@ class Signal(eqx.Module):
         Raises:
             DataError: for what is not a number.
         """
-        if not (is_real(seconds) and np.shape(seconds) == ()):
+        if not is_number(seconds):
             raise DataError(f"A signal cannot be delayed by {shown(seconds)}; give seconds.")
         return self._with(
             ts=self.ts + jnp.asarray(seconds, self.ts.dtype),

@@ -12,10 +12,13 @@ from functools import cached_property, partial
 import numpy as np
 import sympy as sp
 
-from acausal.codegen import DISCRETE, STATES, ArrayFormula, ParameterLayout, Program, formula_of
+from acausal.codegen import DISCRETE, ArrayFormula, ParameterLayout, Program, formula_of
 from acausal.flattening import GuardGroup, Integers, LeavesCaches, UpdateGroup
 from acausal.modeling import time
-from acausal.structure import ReducedModel
+from acausal.structure import ReducedModel, dependence_pattern
+
+MOST_DEPENDENCES = 1_000_000
+"""So many dependences of conditions on states are listed at most; of more, only what they read itself."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +61,8 @@ class Events(LeavesCaches):
         program: of the model. layout: of its parameters.
         guards: the conditions. updates: the discrete variables, those that others read first. jumps: of states.
         exact: which discrete variables are whole numbers or truth values, shape (n_discrete,).
-        resets: which conditions read a state that jumps when they come true, shape (n_guards,).
+        resets: places of conditions that depend on a state, and of what makes it jump when both come true, in pairs of
+            shape (n, 2).
     """
 
     program: Program
@@ -142,7 +146,7 @@ def generate_events(
     for variable in reduced.model.discrete.tolist():
         kind = getattr(reduced.model.layout.variable_declaration(variable), "kind", "real")
         exact[program.positions[1][reduced.resolve(variable)[0]]] |= kind != "real"
-    resets = _resets(guards, jumps, program)
+    resets = _resets(reduced, jumps, updates, program)
     return Events(program, layout, guards, updates, jumps, exact, resets)
 
 
@@ -188,15 +192,50 @@ def _in_order(updates: list[Update], n: int, program: Program) -> list[tuple[int
     return [(i, np.flatnonzero(level[updates[i].places] == number)) for number, i in sorted(parts)]
 
 
-def _resets(guards: Sequence[Guard], jumps: Sequence[Update], program: Program) -> np.ndarray:
-    """Which conditions read a state that jumps when they come true; the edge of one reads what it was before."""
+def _resets(
+    reduced: ReducedModel,
+    jumps: Sequence[Update],
+    updates: Sequence[Update],
+    program: Program,
+) -> np.ndarray:
+    """See `Events.resets`; the edge of a discrete variable reads what it was before."""
+    parts: dict[int, list[int]] = {}
+    for update in updates:
+        for place, part in _reads(update, DISCRETE, program):
+            parts.setdefault(place, []).append(part)
+
+    def conditions(place: int) -> set[int]:
+        """All places that a discrete variable is computed from, and its own."""
+        found, left = {place}, [place]
+        while left:
+            new = set(parts.get(left.pop(), ())) - found
+            found |= new
+            left += new
+        return found
+
     before = len(program.nodes) + DISCRETE
-    pairs = {pair for jump in jumps for pair in _reads(jump, before, program)}
-    resets = np.zeros(sum(guard.formula.size for guard in guards), dtype=bool)
-    for guard in guards:
-        for place, state in _reads(guard, STATES, program):
-            resets[place] |= (state, place) in pairs
-    return resets
+    edges = {pair for jump in jumps for pair in _reads(jump, before, program)}
+    caused: dict[tuple[int, int], list[int]] = {}
+    for state, edge in edges:
+        for place in conditions(edge):
+            caused.setdefault((state, place), []).append(edge)
+    none = np.zeros((0, 2), dtype=np.int64)
+    read: list[tuple[int, int]] = []
+    for group in reduced.model.events.guards:
+        for target, row in zip(group.targets.tolist(), group.group.variables.tolist(), strict=True):
+            place = int(program.positions[1][reduced.resolve(target)[0]])
+            nodes = map(reduced.resolve_derivative, row, group.group.template.orders)
+            read += [(place, node[0]) for node in nodes if node is not None]
+    jumping = reduced.states[sorted({state for state, _ in caused})]
+    if not len(jumping) or not read:
+        return none
+    places, wanted = np.asarray(read).T
+    depends = dependence_pattern(reduced, wanted, jumping, MOST_DEPENDENCES)
+    found: set[tuple[int, int]] = set()
+    for i, j in zip(*(depends or np.nonzero(wanted[:, None] == jumping)), strict=True):
+        pair = int(program.positions[1][jumping[j]]), int(places[i])
+        found |= {(pair[1], edge) for edge in caused.get(pair, ())}
+    return np.asarray(sorted(found), dtype=np.int64) if found else none
 
 
 def _reads(update: Update, array: int, program: Program) -> Iterator[tuple[int, int]]:

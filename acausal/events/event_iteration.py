@@ -167,9 +167,11 @@ def _pass(events: Events, at: Values, rates: Rates | None, going: _Going) -> tup
     this = Pass(going.x, going.d, found)
     x, d = after_pass(events, at, this)
     done = jnp.all(equal(found, going.d))
-    n, forced, looked = events.n_guards, going.forced, going.looked
-    has_set = events.resets & (found[:n] > 0.5) & (going.d[:n] < 0.5)
-    band = jnp.where(has_set, -1.0, going.band)
+    n, forced, looked, band = events.n_guards, going.forced, going.looked, going.band
+    if len(events.resets):
+        condition, edge = events.resets.T
+        true = (found > 0.5) & (going.d < 0.5)
+        band = band.at[jnp.where(true[condition] & true[edge], condition, n)].set(-1.0, mode="drop")
     if rates is not None and n:
         look = partial(_switched, events, band, forced, rates, *without_derivatives((x, found)))
         forced = lax.cond(done & ~looked, look, lambda: forced)

@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal._jax import compiled, select, traced
-from acausal.codegen import Packed, Values
+from acausal.codegen import Packed, Values, read_and_keep
 from acausal.errors import DataError, nearest, need_package
 from acausal.files import csv_text, need_path, write_files
 from acausal.modeling import ByName, names_in, names_matching
@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from acausal.reporting import Animation
     from acausal.system import System
 
+MOST_KEPT = 1_000_000
+"""So many numbers of a program's arrays, at most, are kept beside a variable that is asked for."""
+
 CURVES_VIEWED = 12
 """Variables in the view that a notebook shows."""
 
@@ -41,7 +44,7 @@ CURVES_VIEWED = 12
     jax.tree_util.register_dataclass,
     data_fields=["values", "statistics", "log"],
     meta_fields=["system"],
-    drop_fields=["functions", "_observed"],
+    drop_fields=["functions", "_observed", "_arrays"],
 )
 @dataclass(frozen=True, eq=False)
 class Solution(ByName):
@@ -72,6 +75,7 @@ class Solution(ByName):
     _observed: dict[str, Float[Array, " n"]] = field(
         default_factory=dict[str, Array], init=False, repr=False
     )
+    _arrays: dict[int, Array] = field(default_factory=dict[int, Array], init=False, repr=False)
 
     @property
     def t(self) -> Float[Array, " n"]:
@@ -280,9 +284,30 @@ class Solution(ByName):
             if name not in self.system.variables:
                 raise DataError(f"The model has no variable '{name}': {nearest(name, self.names)}")
         if new:
-            values = _read_all(self.system, new, self.values)
-            self._observed.update(zip(new, values, strict=True))
+            self._compute(new)
         warn_of_nonfinite(self.system, self.values, {n: self._observed[n] for n in unread})
+
+    def _compute(self, names: tuple[str, ...]) -> None:
+        """Read variables that are computed, and keep the arrays of the program that they were computed with."""
+        program, (nodes, signs) = self.system.program, self.system.nodes_of(names)
+        places = list(zip(*(side[nodes].tolist() for side in program.positions), strict=True))
+        left = [
+            n for n, (source, _) in zip(names, places, strict=True) if source not in self._arrays
+        ]
+        if left:
+            sources = {source for source, _ in places}.difference(self._arrays)
+            filled = program.filled(sources, self._arrays)
+            few = sum(program.sizes[a] for a in filled) * self.t.size <= MOST_KEPT
+            found, kept = _read_all(
+                self.system, tuple(left), self.values, self._arrays, filled if few else ()
+            )
+            self._observed.update(zip(left, found, strict=True))
+            self._arrays.update(kept)
+        for name, (source, index), sign in zip(names, places, signs.tolist(), strict=True):
+            if name not in self._observed:
+                array = self._arrays[source]
+                column = array if array.ndim == self.t.ndim else select(array, (..., index))
+                self._observed[name] = column if sign == 1 else -column
 
     @property
     def _about(self) -> list[str]:
@@ -319,15 +344,27 @@ class Solution(ByName):
 
 
 @compiled
-def _read_all(system: System, names: tuple[str, ...], values: Values) -> list[Float[Array, " n"]]:
+def _read_all(
+    system: System,
+    names: tuple[str, ...],
+    values: Values,
+    known: dict[int, Array],
+    kept: tuple[int, ...],
+) -> tuple[list[Float[Array, " n"]], dict[int, Array]]:
+    """Variables, and arrays of the program to keep, over all points; ``known``: arrays that were kept earlier."""
     drift = values.packed.values.ndim == 2
-    points = (values.t, values.x, values.u, values.d, values.packed.values if drift else None)
+    numbers = values.packed.values if drift else None
+    points = (values.t, values.x, values.u, values.d, numbers, known)
+    nodes, signs = system.nodes_of(names)
 
-    def at(point: tuple[Any, ...]) -> Float[Array, " n_names"]:
-        t, x, u, d, numbers = point
+    def at(point: tuple[Any, ...]) -> tuple[Float[Array, " n_names"], dict[int, Array]]:
+        t, x, u, d, numbers, known = point
         packed = Packed(numbers, values.packed.modules) if drift else values.packed
-        return system.read(names, Values(t, x, u, packed, d))
+        found, own = read_and_keep(system.program, nodes, Values(t, x, u, packed, d), known, kept)
+        return found * signs, own
 
     # One after the other, each point iterates as often as it needs, and XLA compiles one of them.
-    rows = jax.lax.map(at, points) if system.iterates(names) else jax.vmap(at)(points)
-    return list(rows.T)
+    sources = system.program.gather(nodes).sources
+    iterates = system.program.iterates(sources, known)
+    rows, arrays = jax.lax.map(at, points) if iterates else jax.vmap(at)(points)
+    return list(rows.T), arrays

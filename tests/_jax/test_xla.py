@@ -13,7 +13,8 @@ from acausal.components import translational as tl
 
 EMITTERS = "--xla_cpu_use_fusion_emitters=false"
 LOOPS = "--xla_backend_extra_options=xla_cpu_small_while_loop_byte_threshold=1048576"
-ASKED = f"{LOOPS} {EMITTERS}"
+PASSES = "--xla_disable_hlo_passes=while-loop-invariant-code-motion,while-loop-constant-sinking"
+ASKED = f"{LOOPS} {EMITTERS} {PASSES}"
 OTHER = "--xla_cpu_enable_fast_math=false"
 OWN = "--xla_backend_extra_options=xla_cpu_other=1"
 
@@ -24,7 +25,7 @@ OWN = "--xla_backend_extra_options=xla_cpu_other=1"
     [
         ({}, ASKED),
         ({"XLA_FLAGS": OTHER}, f"{OTHER} {ASKED}"),
-        ({"XLA_FLAGS": OWN}, f"{OWN} {EMITTERS}"),
+        ({"XLA_FLAGS": OWN}, f"{OWN} {EMITTERS} {PASSES}"),
     ],
     ids=["nothing", "other flags", "own options"],
 )

@@ -200,6 +200,15 @@ def test_a_data_frame_is_a_record():
     )
 
 
+def test_signals_say_their_units():
+    """As those of xarray do, and pandas' columns."""
+    column = pytest.importorskip("pandas").Series(TIME)
+    column.attrs["units"] = "mm"
+    data = ac.Data(TIME, {"mass.s": column}).for_system(plain())
+    np.testing.assert_allclose(data["mass.s"], 1e-3 * TIME)
+    assert "have no unit" in refused(lambda: ac.Data(TIME, {"mass.s": column, "mass.v": TIME}))
+
+
 def test_a_unit_that_is_none():
     message = refused(
         lambda: ac.Data(TIME, {"mass.v": TIME}, {"mass.v": "meterz"}).for_system(plain())

@@ -44,6 +44,11 @@ def test_masked_times_are_refused():
     times = np.ma.MaskedArray(STEPS, [0, 1, 0, 0, 0])
     with pytest.raises(ac.DataError, match="masked times"):
         ac.Data(times, {"x": STEPS})
+    for time, values in ((times, STEPS), (STEPS, times)):
+        with pytest.raises(ac.DataError, match="'signal' is masked"):
+            ac.Signal(time, values)
+    whole = np.ma.MaskedArray(STEPS)
+    np.testing.assert_array_equal(ac.Data(whole, {"x": whole})["x"], STEPS)
 
 
 def test_a_record_keeps_its_samples():

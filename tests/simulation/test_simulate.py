@@ -331,6 +331,17 @@ def test_a_second_call_does_not_compile():
     assert not compiled
 
 
+def test_what_a_variable_was_computed_with_is_not_computed_again():
+    sol = ac.simulate(plain(), (0, 1), dt=0.02, inputs={"push.f": np.ones(51)})
+    together = ac.simulate(plain(), (0, 1), dt=0.02, inputs={"push.f": np.ones(51)})
+    sol["mass.a"].block_until_ready()
+    names = ["mass.flange_a.f", "spring.f", "damper.f"]
+    with compilations() as compiled:
+        one_by_one = np.stack([sol[n] for n in names], axis=1)
+    assert not compiled
+    np.testing.assert_allclose(one_by_one, together[names], rtol=1e-14)
+
+
 # -- errors ------------------------------------------------------------------------------------------
 
 

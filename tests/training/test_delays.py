@@ -36,6 +36,17 @@ def late(n: int = 401, start: float = 0.0, kind: Any = "cubic", tau: float = TAU
     return ac.Data(t, {"push.f": force(t), **signals}, interpolation=kind)
 
 
+@pytest.mark.parametrize("tau", [-TAU, TAU])
+def test_a_held_input_that_is_delayed_holds_its_last_sample(tau: float) -> None:
+    """A delay below zero asks for what comes after the record's end: its last sample is held, as by `Signal`."""
+    data = late(40, kind="previous", tau=tau)
+    p = problem({"a": data}, delays={"push.f": tau}, solver="rk4")
+    steps = p.steps(p.pack(p.assemble(p.start()), p.start()))
+    signal = data.signal("push.f").delayed(tau)
+    last = np.asarray(steps.t)[38] + DT / 2
+    np.testing.assert_allclose(steps.inputs.start[38, 0], signal(last), atol=1e-11)
+
+
 def problem(data: dict[str, ac.Data], **options: Any) -> Problem:
     """A training of the oscillator's stiffness and of some times."""
     options = {"modifiers": ["spring.c"], **options}

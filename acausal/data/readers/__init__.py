@@ -6,11 +6,11 @@ In: paths, pandas and xarray objects. Out: `SignalTable`. What makes a record of
 from acausal.data.readers.csv_file import read_csv as read_csv
 from acausal.data.readers.data_frame import (
     data_frame as data_frame,
-    frame_units as frame_units,
     is_data_frame as is_data_frame,
     need_unique as need_unique,
     read_parquet as read_parquet,
     read_runs as read_runs,
+    units_said as units_said,
 )
 from acausal.data.readers.many_files import files as files
 from acausal.data.readers.mat_file import read_mat as read_mat

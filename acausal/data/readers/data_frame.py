@@ -76,11 +76,15 @@ def read_runs(
     return {str(run): read_data_frame(part, selection, f"{what} '{run}'") for run, part in parts}
 
 
-def frame_units(signals: object) -> dict[str, str] | None:
-    """Units in the attributes of a data frame with a column for each signal; None where there are none."""
-    if not is_data_frame(signals):
+def units_said(signals: object) -> dict[str, str] | None:
+    """Units in the attributes of a data frame, or of signals such as those of xarray; None where there are none."""
+    if is_data_frame(signals):
+        return _units(signals, {n: n for n in signals.columns if isinstance(n, str)}) or None
+    if not isinstance(signals, Mapping):
         return None
-    return _units(signals, {n: n for n in signals.columns if isinstance(n, str)}) or None
+    attributes = {name: getattr(given, "attrs", None) for name, given in signals.items()}
+    found = {n: own["units"] for n, own in attributes.items() if own and "units" in own}
+    return found or None
 
 
 def read_parquet(path: Path, selection: Selection) -> SignalTable | dict[str, SignalTable]:

@@ -62,6 +62,10 @@ static int switched(Model *m, const real t, const real *u, const real *along_u) 
     return changed;
 }
 
+static int came_true(const Model *m, const int place) {
+    return m->d[place] > R(0.5) && m->e.d_before[place] < R(0.5);
+}
+
 /* An event at m->x, m->d: all is found anew until nothing changes. Without along_u rates are not looked at. */
 static Status fire(Model *m, const real t, const real *u, const real *along_u) {
     int looked = !along_u;
@@ -72,8 +76,8 @@ static Status fire(Model *m, const real t, const real *u, const real *along_u) {
         int done = equal(m->d, m->e.d_before, DISCRETE);
         jumped(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.next_x);
         copy(m->e.next_x, m->x, STATES);
-        for (int i = 0; i < GUARDS; i++) /* it has set what it reads: its number counts from now on */
-            if (resets[i] && m->d[i] > R(0.5) && m->e.d_before[i] < R(0.5)) m->e.band[i] = -1;
+        for (int i = 0; i < RESETS; i++) /* it has set what it reads: its number counts from now on */
+            if (came_true(m, resets[i][0]) && came_true(m, resets[i][1])) m->e.band[resets[i][0]] = -1;
         if (done && !looked) {
             looked = 1;
             done = !switched(m, t, u, along_u);

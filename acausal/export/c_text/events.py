@@ -102,7 +102,10 @@ def tables(events: Events) -> Iterator[str]:
     """What is known of the conditions."""
     yield f"enum {{ GUARDS = {events.n_guards}, DISCRETE = {len(events.exact)}, POINTS = 5 }};"
     yield f"enum {{ ANY_TIMED = {int(events.timed.any())} }};"
-    for name in ("strict", "timed", "resets", "ticks"):
+    yield f"enum {{ RESETS = {len(events.resets)} }};"
+    pairs = [f"{{{condition}, {edge}}}" for condition, edge in events.resets.tolist()] or ["{0}"]
+    yield f"static const int resets[][2] = {{{', '.join(pairs)}}};"
+    for name in ("strict", "timed", "ticks"):
         flags: np.ndarray = getattr(events, name)
         written = [str(int(flag)) for flag in flags.tolist()] or ["0"]
         rows = [", ".join(written[i : i + 30]) for i in range(0, len(written), 30)]

@@ -10,9 +10,9 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, gettempdir
 
-from acausal.errors import ExportError, shortened
+from acausal.errors import ExportError, reason, shortened
 
 MACHINES = {"AMD64": "x86_64", "x86_64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
 SYSTEMS = {"Linux": "linux", "Darwin": "darwin", "Windows": "windows"}
@@ -86,8 +86,19 @@ def build(
         command: the compiler, and what it is always told.
 
     Raises:
-        ExportError: with the first complaint of the compiler.
+        ExportError: with the first complaint of the compiler, or why its files cannot be written.
     """
+    try:
+        return _built(name, files, sources, command)
+    except OSError as e:
+        raise ExportError(
+            f"export.fmu: the library cannot be compiled in '{gettempdir()}': {reason(e)}."
+        ) from e
+
+
+def _built(
+    name: str, files: Mapping[str, str], sources: Sequence[str], command: Sequence[str]
+) -> bytes:
     with TemporaryDirectory() as folder:
         for file, text in files.items():
             (Path(folder) / file).write_text(text, encoding="utf-8")

@@ -38,7 +38,7 @@ def dependencies(
         watched: nodes that tell whether networks leave their ranges.
     """
     outputs = _places(text.outputs)
-    nodes, _ = system._find_all(outputs)  # pyright: ignore[reportPrivateUsage]
+    nodes, _ = system.nodes_of(outputs)
     reduced, n_states, n_inputs = system.reduced, len(system.states), len(system.inputs)
     sources = np.concatenate([reduced.states, reduced.inputs[:n_inputs]]).astype(np.int64)
     wanted = np.concatenate([reduced.rates, np.asarray(nodes), watched]).astype(np.int64)

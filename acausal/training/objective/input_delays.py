@@ -276,7 +276,8 @@ def _table(function: TimeFunction) -> tuple[np.ndarray, np.ndarray, Samples]:
     if function.uniform:
         widths = np.full(len(widths), (ts[-1] - ts[0]) / len(widths))
     held = 0.0 if function.derivative else 1.0
-    before, after = held * inner.start[:1], held * inner.end[-1:]
+    # what a held input has at its last sample is no part of the interval before
+    before, after = held * inner.start[:1], held * jnp.reshape(function(ts[-1]), (1, 1))
     return (
         np.concatenate([[ts[0] - widths[0]], ts]),
         np.concatenate([widths[:1], widths, widths[-1:]]),

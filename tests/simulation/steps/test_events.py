@@ -279,6 +279,35 @@ def test_a_discrete_variable_may_be_a_derivative() -> None:
     assert sol["x"][-1] == pytest.approx(0.75)
 
 
+class Clamped(ac.Component):
+    """A level that is put back to the threshold of a condition as soon as that is true: it slides along it."""
+
+    x = ac.Variable(start=0.5, fixed=True)
+    y = ac.Variable()
+    is_low = ac.Discrete(False, kind="bool")
+
+    def __init__(self, which: str) -> None:
+        super().__init__()
+        self.which = which
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), -1)
+        yield ac.Eq(self.y, 2 * self.x + ac.sin(self.x))
+        yield ac.Eq(self.is_low, self.x < 0)
+        conditions = {
+            "in part": (self.x < 0) & (ac.time > 0.2),
+            "by a variable": self.y < 0,
+            "by a discrete variable": self.is_low,
+        }
+        yield ac.When(conditions[self.which], ac.Reinit(self.x, 0))
+
+
+@pytest.mark.parametrize("which", ["in part", "by a variable", "by a discrete variable"])
+def test_a_level_that_is_clamped_at_its_threshold_does_not_run_away(which: str) -> None:
+    with pytest.raises(ac.SimulationError, match="events follow each other without end"):
+        ac.simulate(ac.compile(Clamped(which)), 1.0)
+
+
 class BetweenWalls(ac.Component):
     """Something that flies between two walls and is put exactly onto the one that it has met."""
 
