@@ -13,7 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import compiled, select, traced
+from acausal._jax import array, compiled, select, traced
 from acausal.codegen import Packed, Values, read_and_keep
 from acausal.errors import DataError, nearest, need_package
 from acausal.files import csv_text, need_path, write_files
@@ -305,9 +305,10 @@ class Solution(ByName):
             self._arrays.update(kept)
         for name, (source, index), sign in zip(names, places, signs.tolist(), strict=True):
             if name not in self._observed:
-                array = self._arrays[source]
-                column = array if array.ndim == self.t.ndim else select(array, (..., index))
-                self._observed[name] = column if sign == 1 else -column
+                whole = self._arrays[source]
+                column = whole if whole.ndim == self.t.ndim else select(whole, (..., index))
+                turned = column if traced(column) else np.asarray(column)
+                self._observed[name] = column if sign == 1 else array(-turned, column.dtype)
 
     @property
     def _about(self) -> list[str]:
