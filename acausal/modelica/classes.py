@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from acausal.errors import nearest, shortened
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import Native, Predefined, Prefix
+from acausal.modelica.meanings import Imported, Native, Predefined, Prefix
 from acausal.modelica.syntax import (
     ClassDefinition,
     Declared,
@@ -126,11 +125,15 @@ class ClassNode:
                         return ClassNode(argument.redeclared, self, self.tree)
                 base = self.base(extends, quiet=True)
                 found = self.tree.inside(base, name)
-                if found is not None:
+                if found is not None and not self._is_guess(found):
                     return self._inherited_class(name, found)
         finally:
             self._searching.discard(name)
         return None
+
+    def _is_guess(self, found: Any) -> bool:
+        """Whether this may be a package whose text is not given, or no name at all."""
+        return isinstance(found, Prefix) and not self.tree.has_package(found.full)
 
     def with_classes(self, classes: Mapping[str, Any]) -> ClassNode:
         """The same class with other classes in the place of replaceable ones; the same for the same classes."""
@@ -187,16 +190,14 @@ class ClassNode:
                 found = self.tree.inside(above.base(clause), self.definition.name)
                 if found is not None:
                     return above._inherited_class(f"{self.definition.name} of the base", found)
-        found, rest = self.lookup(
-            extends.base.words, skip=self.definition.name if self.definition.short else ""
-        )
+        found, rest = self.lookup(extends.base.words)
         if found is None or rest:
             if quiet:
                 return None
             raise self.unknown(extends.base)
         return found
 
-    def lookup(self, words: Sequence[str], skip: str = "") -> tuple[Any, Sequence[str]]:
+    def lookup(self, words: Sequence[str]) -> tuple[Any, Sequence[str]]:
         """What a name means here: what is found by its first words, and the words that are left."""
         if words[0] == "":
             found = self.tree.root(words[1])
@@ -225,7 +226,7 @@ class ClassNode:
                 continue
             if node.definition.name == word and node is not self and node.parent is None:
                 return node
-            found = node.member(word)
+            found = None if node.definition.short else node.member(word)
             if found is None:
                 found = node.imported(word)
             if found is not None:
@@ -249,7 +250,7 @@ class ClassNode:
             if clause.everything:
                 package = self.tree.resolve(clause.package)
                 found = self.tree.inside(package, word)
-                if isinstance(found, Prefix) and not self.tree.has_package(found.full):
+                if self._is_guess(found):
                     found = None
                 if found is None and isinstance(package, ClassNode) and package.has_value(word):
                     found = Imported(package, word)
@@ -259,7 +260,14 @@ class ClassNode:
 
     def has_value(self, name: str) -> bool:
         """Whether this is a constant of a package, or a value of an enumeration."""
-        return name in self.view().entries or name in (self.definition.literals or ())
+        return name in self.view().entries or name in self.literals
+
+    @cached_property
+    def literals(self) -> dict[str, str]:
+        """The values of an enumeration by name, each with its text."""
+        short = self.definition.short
+        base = self.base(self.extends[0], quiet=True) if short and self.extends else None
+        return self.definition.literals or (base.literals if isinstance(base, ClassNode) else {})
 
     def unknown(self, name: DottedName, what: str = "class") -> ModelicaError:
         """The error for a name that means nothing here."""
@@ -341,6 +349,9 @@ class ClassNode:
                 view.natives.append((base, arguments))
                 return
             case Prefix() if base.full.startswith("Modelica.Icons"):
+                return
+            case Prefix() if any(lib.is_enumeration(base.full) for lib in self.tree.libraries):
+                view.predefined = Predefined(base.full)
                 return
             case ClassNode():
                 pass
@@ -434,14 +445,6 @@ class Inherited(ClassNode):
     def view(self) -> ClassView:
         """The heir with what it inherits."""
         return self.heir.view()
-
-
-@dataclass(frozen=True, eq=False)
-class Imported:
-    """A constant of a package that an import names."""
-
-    node: ClassNode
-    name: str
 
 
 PATH_HINT = "give the folder that has it by path=[...] or in MODELICAPATH"

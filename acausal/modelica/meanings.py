@@ -36,6 +36,14 @@ class Prefix:
     full: str
 
 
+@dataclass(frozen=True, eq=False)
+class Imported:
+    """A constant of a package of the text, ``node``, that an import names."""
+
+    node: Any
+    name: str
+
+
 class Literal(str):
     """The value of an enumeration: the text of its name, and its number.
 

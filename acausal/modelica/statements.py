@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
+from acausal.modelica.algorithm_sections import AlgorithmReader
 from acausal.modelica.connecting import ends_of
 from acausal.modelica.modifications import Bound
 from acausal.modelica.sections import SectionReader, collect
@@ -90,7 +91,7 @@ def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
         if kind == equations:
             yield from SectionReader(build.frame(node)).stated(stated)
         elif kind == algorithms:
-            yield from SectionReader(build.frame(node)).algorithm(stated)
+            yield from AlgorithmReader(build.frame(node)).algorithm(stated)
 
 
 def connect(build: Any) -> None:

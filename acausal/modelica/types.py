@@ -80,6 +80,8 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
             return type_of_class(found)
         case Value() if is_dataclass(found.value):
             return Type(predefined=declared.type.text, record=found.value)
+        case Prefix() if any(lib.is_enumeration(found.full) for lib in frame.node.tree.libraries):
+            return Type(predefined=declared.type.text)
         case Prefix():
             raise frame.node.unknown(declared.type)
         case _:

@@ -396,7 +396,39 @@ package Idioms "What public libraries write; each model has a known derivative"
     connect(c.y, given.v);
   end Voltages;
 
+  model Choosing "enumerations of the library, also by another name"
+    import Modelica.Blocks.Types.Init;
+    type Start = Modelica.Blocks.Types.Init;
+    parameter Init init = Init.InitialState;
+    parameter Start other = Start.SteadyState;
+    Real x(start = 1, fixed = true);
+  equation
+    der(x) = -(if init == Start.SteadyState then 1 else 2)*(if other == Init.SteadyState then 3 else 5);
+  end Choosing;
+
+  model Counting "an algorithm is one unit: later statements see what earlier ones have set at the same instant"
+    Integer n(start = 0, fixed = true), m(start = 0, fixed = true), both[2](each start = 0, each fixed = true);
+    Boolean late(start = false, fixed = true);
+  algorithm
+    late := time > 0.65;
+    when sample(0.1, 0.1) then
+      n := n + 1;
+      both[1] := n;
+    end when;
+    when sample(0.2, 0.2) then
+      m := n;
+      both[2] := if late then 10 else 20;
+    end when;
+    when n >= 4 then
+      n := 0;
+    elsewhen time > 0.55 then
+      n := 10*n;
+      late := true;
+    end when;
+  end Counting;
+
   model All
+    Choosing choosing(init = Modelica.Blocks.Types.Init.SteadyState);
     Voltages voltages;
     Matrices matrices;
     Piping piping;
