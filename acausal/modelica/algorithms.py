@@ -35,7 +35,10 @@ REFUSED = {
     "inStream": "use connectors without stream variables",
     "actualStream": "use connectors without stream variables",
     "getInstanceName": "write the name as a text",
-    "terminate": "give the end of the simulation",
+    **dict.fromkeys(
+        ("Clock", "previous", "hold", "interval", "subSample", "superSample", "noClock"),
+        "write 'when sample(start, period) then', or use Modelica.Blocks.Discrete",
+    ),
 }
 
 
@@ -233,6 +236,8 @@ class Algorithms(Overloading):
         self.at = call.at
         if self.full_name(call) == "Modelica.Utilities.Streams.print":
             self.unwatched(call, "this text is not printed")
+        elif word == "terminate":
+            self.unwatched(call, "this does not end the simulation; give its end to simulate(...)")
         elif word != "assert":
             hint = f"; {REFUSED[word]}" if word in REFUSED else ""
             raise self.wrong(f"{word}(...) is not supported here{hint}", len(word))

@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal.errors import nearest, shortened
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import Imported, Native, Predefined, Prefix
+from acausal.modelica.meanings import Imported, Native, Predefined, Prefix, refused_package
 from acausal.modelica.syntax import (
     ClassDefinition,
     Declared,
@@ -272,6 +272,9 @@ class ClassNode:
     def unknown(self, name: DottedName, what: str = "class") -> ModelicaError:
         """The error for a name that means nothing here."""
         words = [w for w in name.words if w]
+        imported = [f"{c.package}.{name.text}" for c in self._imports if c.everything]
+        if reason := next(filter(None, map(refused_package, (name.text, *imported))), ""):
+            return self.wrong(name.at, reason, len(name.text))
         if self.tree.root(words[0]) is None or isinstance(self.tree.root(words[0]), ClassNode):
             known = [
                 *self._elements,

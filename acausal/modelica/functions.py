@@ -40,7 +40,7 @@ TEXTS: dict[str, Callable[..., Any]] = {
     "ModelicaStrings_substring": lambda text, first, last: text[first - 1 : last],
 }
 """Functions of texts that are known when the model is built, by their name in C."""
-REFUSED_PACKAGES = ("Connections.", "Modelica.Utilities.", "Clock", "previous", "hold", "interval")
+REFUSED_PACKAGES = ("Connections.", "Modelica.Utilities.")
 
 
 class Interpreter(Algorithms):

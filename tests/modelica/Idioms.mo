@@ -406,6 +406,61 @@ package Idioms "What public libraries write; each model has a known derivative"
     der(x) = -(if init == Start.SteadyState then 1 else 2)*(if other == Init.SteadyState then 3 else 5);
   end Choosing;
 
+  expandable connector CellBus
+    Real v;
+    Real T;
+  end CellBus;
+
+  expandable connector StackBus
+    parameter Integer n = 1;
+    CellBus cell[n];
+  end StackBus;
+
+  model Cell
+    parameter Real k;
+    CellBus bus;
+    Modelica.Blocks.Sources.Constant v(k = k);
+    Modelica.Blocks.Sources.Constant T(k = 100*k);
+    Modelica.Thermal.HeatTransfer.Components.HeatCapacitor heat(C = k, T(start = 1, fixed = true));
+  equation
+    connect(v.y, bus.v);
+    connect(T.y, bus.T);
+  end Cell;
+
+  model Watch "reads an array of buses as a whole, and members of one in an expression"
+    StackBus bus(n = 2);
+    Modelica.Blocks.Math.Gain gain[2](each k = 10);
+    Real x(start = 1, fixed = true);
+  equation
+    connect(bus.cell.v, gain.u);
+    der(x) = sum(gain.y) + sum(bus.cell.v) + bus.cell[2].T;
+  end Watch;
+
+  model Stack "arrays of buses; a matrix of ports for which a class of the library has a list"
+    Cell cell[2](k = {1, 2});
+    StackBus bus(n = 2);
+    Watch watch;
+    Modelica.Thermal.HeatTransfer.Components.ThermalCollectorMatrix all(Ns = 1, Np = 2);
+    Modelica.Thermal.HeatTransfer.Sources.FixedHeatFlow source(Q_flow = 6);
+    Modelica.Thermal.HeatTransfer.Interfaces.HeatPort_a port[1, 2];
+  equation
+    connect(cell.bus, bus.cell);
+    connect(bus, watch.bus);
+    connect(cell[1].heat.port, port[1, 1]);
+    connect(cell[2].heat.port, port[1, 2]);
+    connect(port, all.port_a);
+    connect(source.port, all.port_b);
+  end Stack;
+
+  model Guarded "a division by zero in a branch that parameters rule out"
+    parameter Real least = 0;
+    constant Real none = 0;
+    Real x = if least > 0 then time/none else y;
+    Real y(start = 1, fixed = true);
+  equation
+    der(y) = -y;
+  end Guarded;
+
   model Counting "an algorithm is one unit: later statements see what earlier ones have set at the same instant"
     Integer n(start = 0, fixed = true), m(start = 0, fixed = true), both[2](each start = 0, each fixed = true);
     Boolean late(start = false, fixed = true);
@@ -428,6 +483,8 @@ package Idioms "What public libraries write; each model has a known derivative"
   end Counting;
 
   model All
+    Stack stack;
+    Guarded guarded;
     Choosing choosing(init = Modelica.Blocks.Types.Init.SteadyState);
     Voltages voltages;
     Matrices matrices;

@@ -12,6 +12,9 @@ import acausal as ac
 FILE = Path(__file__).with_name("Idioms.mo")
 MOVES = {
     "choosing.x": -1 * 3,
+    "guarded.y": -1,
+    "stack.watch.x": 10 * (1 + 2) + (1 + 2) + 200,
+    "stack.cell[1].heat.T": 6 / (1 + 2),
     # -load + turned + gain*2*turned
     "direct.machine.x[1]": -1 - 1 - 10 * 2,
     "rotating.machine.x[1]": -1 - 1 - 20 * 2,
