@@ -87,6 +87,17 @@ class BusMember(Record):
         return self.bus.field(f"{self.name}[{','.join(map(str, index))}]")
 
 
+class FunctionValue:
+    """A function as the argument of another one.
+
+    Attributes:
+        node: its class. named: those of its arguments that are given already.
+    """
+
+    def __init__(self, node: Any, named: dict[str, Any]) -> None:
+        self.node, self.named = node, named
+
+
 def is_array(value: Any) -> bool:
     """Whether this is an array of numbers, truth values or texts, or a list of parts."""
     return isinstance(value, np.ndarray | list | tuple)

@@ -452,6 +452,54 @@ package Idioms "What public libraries write; each model has a known derivative"
     connect(source.port, all.port_b);
   end Stack;
 
+  partial function Function
+    input Real x;
+    output Real y;
+  end Function;
+
+  function monomial
+    extends Function;
+    input Real k = 1;
+    input Integer n = 2;
+  algorithm
+    y := k*x^n;
+  end monomial;
+
+  function trapezoid "a function that has a function as argument"
+    input Function f;
+    input Real a, b;
+    output Real s;
+  algorithm
+    s := (b - a)*(f(a) + f(b))/2;
+  end trapezoid;
+
+  function twice "passes it on"
+    input Function f;
+    output Real s = 2*trapezoid(function f(), 0, 3);
+  end twice;
+
+  operator record Vec
+    Real x;
+    Real y;
+    encapsulated operator function '*' "of a number and a record, without a constructor of numbers"
+      import Idioms.Vec;
+      input Real k;
+      input Vec a;
+      output Vec c;
+    algorithm
+      c := Vec(k*a.x, k*a.y);
+    end '*';
+  end Vec;
+
+  model Functions
+    Vec v(x(start = 1, fixed = true), y(start = 1, fixed = true));
+    Vec d = 2*v;
+    Real w[3] = skew({1, 2, 3})*{v.x, 1, 1} + outerProduct({1, 0, 0}, {5, 6, 7})*{1, 1, 0};
+  equation
+    der(v.x) = d.x + trapezoid(monomial, 1, 2) + twice(function monomial(k = 5, n = 1));
+    der(v.y) = w[1] + 10*Modelica.Math.Vectors.norm({3, 4});
+  end Functions;
+
   model Guarded "a division by zero in a branch that parameters rule out"
     parameter Real least = 0;
     constant Real none = 0;
@@ -483,6 +531,7 @@ package Idioms "What public libraries write; each model has a known derivative"
   end Counting;
 
   model All
+    Functions functions;
     Stack stack;
     Guarded guarded;
     Choosing choosing(init = Modelica.Blocks.Types.Init.SteadyState);

@@ -13,6 +13,9 @@ FILE = Path(__file__).with_name("Idioms.mo")
 MOVES = {
     "choosing.x": -1 * 3,
     "guarded.y": -1,
+    # 2*x + (1 + 2^2)/2 + 2*(3*(0 + 5*3)/2), and -3*1 + 2*1 + (5 + 6) + 10*5
+    "functions.v.x": 2 + 2.5 + 45,
+    "functions.v.y": -3 + 2 + 11 + 50,
     "stack.watch.x": 10 * (1 + 2) + (1 + 2) + 200,
     "stack.cell[1].heat.T": 6 / (1 + 2),
     # -load + turned + gain*2*turned
