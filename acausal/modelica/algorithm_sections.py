@@ -14,8 +14,8 @@ import sympy as sp
 from acausal.modelica.operators import Frame
 from acausal.modelica.sections import SectionReader, collect, is_discrete
 from acausal.modelica.syntax import Branches, DottedName, EquationStatement, Statement
-from acausal.modelica.values import as_record, each, elements, is_record
-from acausal.modeling import Discrete, When, change, pre
+from acausal.modelica.values import as_array, as_record, each, elements, is_record
+from acausal.modeling import Discrete, Start, When, change, pre
 
 LARGE = 1000
 """A value of so many parts, at least, is kept as a variable between two statements of an algorithm."""
@@ -48,7 +48,7 @@ class AlgorithmReader(SectionReader):
         variables = {w: build.member(w) for w in sorted(always | at_events) if w in build.names}
         always |= {w for w in at_events if sum(w in _assigned_by(s) for s in whens) > 1}
         local: dict[str, Any] = {
-            w: each(_before, variables[w]) if w in always else variables[w] for w in variables
+            w: self._before(w, variables[w]) if w in always else variables[w] for w in variables
         }
         frame = self.frame
         self.assigned, self.further = {w: v for w, v in variables.items() if w in always}, []
@@ -66,7 +66,9 @@ class AlgorithmReader(SectionReader):
         yield from self.further
         for word in sorted(always & set(variables), key=list(build.names).index):
             if any(v is None for v in elements(local[word])):
-                raise self.wrong(f"the algorithm does not assign '{word}' in every case")
+                raise self.wrong(
+                    f"the algorithm does not assign '{word}' in every case; give it a start, or assign it first"
+                )
             yield from self.pairs(variables[word], local[word])
 
     def _event(self, statement: Branches, local: dict[str, Any], variables: dict[str, Any]) -> When:
@@ -84,6 +86,17 @@ class AlgorithmReader(SectionReader):
             local[w] = self.chosen(change(changed), value, local[w])
         self.later = {w: v for w, v in self.later.items() if w not in assigned}
         return found
+
+    def _before(self, word: str, variable: Any) -> Any:
+        """The value of a variable when an algorithm begins: its last one, or its start; None where none is given."""
+        build: Any = self.frame.build
+        known = build.component._node.modifiers.get(word)
+        start = as_array(known.value) if isinstance(known, Start) else None
+
+        def one(variable: Any, start: Any) -> Any:
+            return pre(variable) if is_discrete(variable) else start
+
+        return each(one, variable, start)
 
     def _is_of_part(self, statement: Statement) -> bool:
         """Whether an assignment gives a variable of a part or connector its value, once, as an equation does."""
@@ -146,11 +159,6 @@ class AlgorithmReader(SectionReader):
         found += self.jumps
         self.frame, self.jumps = frame, jumps
         return found
-
-
-def _before(variable: Any) -> Any:
-    """The value of a variable when an algorithm begins."""
-    return pre(variable) if is_discrete(variable) else None
 
 
 def _is_when(statement: Statement) -> bool:

@@ -257,7 +257,9 @@ class Evaluator(Operators):
         if word in frame.local:
             value = frame.local[word]
             if value is None:
-                raise self.wrong(f"'{word}' is used before it is assigned", len(word))
+                raise self.wrong(
+                    f"'{word}' is used before it is assigned; assign it first", len(word)
+                )
             return value, 1
         if frame.build is not None and word in frame.build.names:
             value = frame.build.member(word)

@@ -500,6 +500,17 @@ package Idioms "What public libraries write; each model has a known derivative"
     der(v.y) = w[1] + 10*Modelica.Math.Vectors.norm({3, 4});
   end Functions;
 
+  model Starting "some elements are fixed, others not; an algorithm begins with starts"
+    Real x[2](start = {4, 2}, fixed = {true, false});
+    Real s(start = 10);
+  initial equation
+    der(x[2]) = 0;
+  algorithm
+    s := s + x[1];
+  equation
+    der(x) = {s, 3 - x[2]};
+  end Starting;
+
   model Guarded "a division by zero in a branch that parameters rule out"
     parameter Real least = 0;
     constant Real none = 0;
@@ -531,6 +542,7 @@ package Idioms "What public libraries write; each model has a known derivative"
   end Counting;
 
   model All
+    Starting starting;
     Functions functions;
     Stack stack;
     Guarded guarded;

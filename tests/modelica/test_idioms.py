@@ -13,6 +13,8 @@ FILE = Path(__file__).with_name("Idioms.mo")
 MOVES = {
     "choosing.x": -1 * 3,
     "guarded.y": -1,
+    "starting.x[1]": 10 + 1,
+    "starting.x[2]": 3 - 1,
     # 2*x + (1 + 2^2)/2 + 2*(3*(0 + 5*3)/2), and -3*1 + 2*1 + (5 + 6) + 10*5
     "functions.v.x": 2 + 2.5 + 45,
     "functions.v.y": -3 + 2 + 11 + 50,
@@ -98,6 +100,12 @@ def test_a_derivative_is_sampled(tmp_path: Path) -> None:
     run = ac.simulate(ac.compile(ac.load(file)), (0, 1), dt=0.05)
     assert run["rate"][-1] == pytest.approx(-3 * np.exp(-0.75), rel=1e-6)
     assert run["last"][-1] == pytest.approx(-np.exp(-0.5), rel=1e-4)
+
+
+@pytest.mark.slow
+def test_some_elements_of_an_array_are_fixed() -> None:
+    run = ac.simulate(ac.compile(ac.load(FILE, "Idioms.Starting")), (0, 0.1))
+    assert [run["x[1]"][0], run["x[2]"][0]] == pytest.approx([4, 3])
 
 
 @pytest.mark.slow
