@@ -227,17 +227,20 @@ class Algorithms(Overloading):
         return holds
 
     def perform(self, call: FunctionCall) -> None:
-        """A call that stands alone: an assertion.
+        """A call that stands alone: an assertion, or a function that may have some.
 
         Raises:
             ModelicaError: for others.
         """
         word = call.function.text
         self.at = call.at
+        found, rest = self.frame.find(call.function.words)
         if self.full_name(call) == "Modelica.Utilities.Streams.print":
             self.unwatched(call, "this text is not printed")
         elif word == "terminate":
             self.unwatched(call, "this does not end the simulation; give its end to simulate(...)")
+        elif isinstance(found, ClassNode) and found.definition.kind == "function" and not rest:
+            self.inlined(found, call)
         elif word != "assert":
             hint = f"; {REFUSED[word]}" if word in REFUSED else ""
             raise self.wrong(f"{word}(...) is not supported here{hint}", len(word))

@@ -73,6 +73,8 @@ class Interpreter(Algorithms):
             return special(self, call)
         if isinstance(found, ClassNode) and found.definition.kind == "function":
             results = self.inlined(found, call)
+            if not results:
+                raise self.wrong(f"{found.definition.name} has no result", len(name))
             return results[0]
         given = [self.value(a) for a in call.arguments]
         named = {k: self.value(v) for k, v in call.named.items()}
@@ -266,8 +268,6 @@ class Interpreter(Algorithms):
         for name in outputs:
             if local[name] is None or any(v is None for v in elements(local[name])):
                 raise self.wrong(f"{definition.name} does not assign '{name}'", length)
-        if not outputs:
-            raise self.wrong(f"{definition.name} has no result", length)
         return [local[name] for name in outputs]
 
     def _for_each_element(

@@ -511,6 +511,26 @@ package Idioms "What public libraries write; each model has a known derivative"
     der(x) = {s, 3 - x[2]};
   end Starting;
 
+  function inRange "only asserts"
+    input Real x;
+    input Real most = 10;
+  algorithm
+    assert(x < most, "x is too large");
+  end inRange;
+
+  model Buttons "a function as a statement; the size of an array of the library is that of its value"
+    parameter Real k = 3;
+    Modelica.Blocks.Sources.RadioButtonSource start(reset = {stop.on}, buttonTimeTable = {1, 3});
+    Modelica.Blocks.Sources.RadioButtonSource stop(reset = {start.on, late.on}, buttonTimeTable = {2});
+    Modelica.Blocks.Sources.RadioButtonSource late(buttonTimeTable = {4});
+    Real x(start = 1, fixed = true);
+  initial equation
+    inRange(k);
+  equation
+    inRange(k, 4);
+    der(x) = -k*x;
+  end Buttons;
+
   model Guarded "a division by zero in a branch that parameters rule out"
     parameter Real least = 0;
     constant Real none = 0;
@@ -542,6 +562,7 @@ package Idioms "What public libraries write; each model has a known derivative"
   end Counting;
 
   model All
+    Buttons buttons;
     Starting starting;
     Functions functions;
     Stack stack;

@@ -12,6 +12,7 @@ import acausal as ac
 FILE = Path(__file__).with_name("Idioms.mo")
 MOVES = {
     "choosing.x": -1 * 3,
+    "buttons.x": -3,
     "guarded.y": -1,
     "starting.x[1]": 10 + 1,
     "starting.x[2]": 3 - 1,

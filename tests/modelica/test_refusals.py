@@ -43,6 +43,9 @@ WRONG = {
     "model M parameter Real a=b; parameter Real b=a; end M;": "a -> b -> a: each depends on the next",
     "model M parameter Real m(min=0)=-1; end M;": "out of range: at least 0",
     "model M parameter Real k=1; equation assert(k>2,\"k is small\"); end M;": "violated: k is small",
+    'function f input Real x; algorithm assert(x<2, "x is large"); end f;'
+    "model M parameter Real k=3; equation f(k); end M;": "violated: x is large",
+    "function f input Real x; algorithm end f; model M Real x=f(time); end M;": "f has no result",
     "model M Real x[3]={1,2}; end M;": r"sizes \[3\] and \[2\]",
     "model M parameter Real x[3]={1,2}; end M;": r"size \[3\], its value has \[2\]",
     "model M Real x[3]; equation x[4]=1; end M;": "subscript 4 is outside of 1 to 3",
