@@ -522,7 +522,7 @@ package Idioms "What public libraries write; each model has a known derivative"
     parameter Real k = 3;
     Modelica.Blocks.Sources.RadioButtonSource start(reset = {stop.on}, buttonTimeTable = {1, 3});
     Modelica.Blocks.Sources.RadioButtonSource stop(reset = {start.on, late.on}, buttonTimeTable = {2});
-    Modelica.Blocks.Sources.RadioButtonSource late(buttonTimeTable = {4});
+    Modelica.Blocks.Sources.RadioButtonSource late(reset = {false}, buttonTimeTable = {4});
     Real x(start = 1, fixed = true);
   initial equation
     inRange(k);
