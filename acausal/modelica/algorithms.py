@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from contextlib import suppress
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -25,9 +26,10 @@ from acausal.modelica.syntax import (
     Several,
     Statement,
 )
-from acausal.modelica.values import Record, each
+from acausal.modelica.values import Record, each, elements
 
 MAX_STATEMENTS = 20_000
+MAX_PARTS = 100_000
 REFUSED = {
     "delay": "use the block Modelica.Blocks.Nonlinear.PadeDelay, an approximation",
     "spatialDistribution": "divide the pipe into volumes",
@@ -116,6 +118,12 @@ class Algorithms(Overloading):
             what = target.text if isinstance(target, DottedName) else "this"
             raise self.wrong(f"'{what}' cannot be assigned here")
         word = target.words[0]
+        if any(isinstance(v, sp.Basic) and _parts(v) > MAX_PARTS for v in elements(value)):
+            raise self.wrong(
+                f"'{word}' becomes an expression of more than {MAX_PARTS} parts; make fewer steps, "
+                "or state an equation for what they lead to",
+                len(word),
+            )
         if self.left is not True:
             changed = self._changed(local[word], target, 0, value)
             kept = self.left is not False
@@ -276,6 +284,12 @@ class Algorithms(Overloading):
                 arguments[1].value if isinstance(arguments[1], LiteralConstant) else "it is false"
             )
             raise self.wrong(f"this assertion is violated: {text}")
+
+
+@lru_cache(maxsize=50_000)
+def _parts(value: sp.Basic) -> int:
+    """How many parts an expression has; one that it has several times counts as often."""
+    return 1 + sum(map(_parts, value.args))
 
 
 class _Layered(dict[str, Any]):

@@ -101,7 +101,11 @@ class ClassNode:
     def text(self, name: str) -> ClassNode | None:
         """A class that is defined here, even where a library has one of its name."""
         if name in self._elements:
-            return ClassNode(self._elements[name], self, self.tree)
+            found = self._elements[name]
+            if found.prefixes.outer:
+                reason = f"'{name}' is an outer class, which is not supported; make it replaceable"
+                raise self.wrong(found.at, reason, len(name))
+            return ClassNode(found, self, self.tree)
         if self.folder is not None:
             for file in (self.folder / f"{name}.mo", self.folder / name / "package.mo"):
                 if file.is_file():

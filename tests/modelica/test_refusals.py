@@ -43,6 +43,8 @@ WRONG = {
     "model M parameter Real a=b; parameter Real b=a; end M;": "a -> b -> a: each depends on the next",
     "model M parameter Real m(min=0)=-1; end M;": "out of range: at least 0",
     "model M parameter Real k=1; equation assert(k>2,\"k is small\"); end M;": "violated: k is small",
+    "function f input Real a; output Real y; algorithm y:=a; for i in 1:25 loop y:=0.5*(y+a/y); end for; end f;"
+    "model M Real x=f(1+time); end M;": "'y' becomes an expression of more than 100000 parts; make fewer steps",
     'function f input Real x; algorithm assert(x<2, "x is large"); end f;'
     "model M parameter Real k=3; equation f(k); end M;": "violated: x is large",
     "function f input Real x; algorithm end f; model M Real x=f(time); end M;": "f has no result",
@@ -76,6 +78,7 @@ WRONG = {
     "a Boolean in a connector is an input or output",
     "connector C Real p; flow Real f; end C; connector A C x; end A; connector B C x; C y; end B;"
     "model M A a; B b; equation connect(a,b); end M;": "unlike connectors: only one has 'y'",
+    "model M outer function f input Real x; output Real y; end f; Real x=f(time); end M;": "'f' is an outer class",
     "model M Clock c; end M;": "Clock is not supported; write 'when sample",
     "model M Real x; equation when Clock(0.1) then x=previous(x); end when; end M;": "not supported; write 'when",
     "model M Modelica.Clocked.RealSignals.Sampler.Sample s; end M;": "clocks are not supported; use the blocks",
