@@ -81,6 +81,8 @@ WRONG = {
     "model M outer function f input Real x; output Real y; end f; Real x=f(time); end M;": "'f' is an outer class",
     "model M Clock c; end M;": "Clock is not supported; write 'when sample",
     "model M Real x; equation when Clock(0.1) then x=previous(x); end when; end M;": "not supported; write 'when",
+    "model M Modelica.Mechanics.MultiBody.Interfaces.Frame_a f; equation Connections.root(f.R); end M;":
+    "takes records of connectors; spatial mechanics",
     "model M Modelica.Clocked.RealSignals.Sampler.Sample s; end M;": "clocks are not supported; use the blocks",
     "model M Modelica.Mechanics.MultiBody.Joints.Revolute r; end M;": "Joints.Revolute: spatial mechanics is not",
     "model M import Modelica.Mechanics.MultiBody.*; Joints.Revolute r; end M;": "spatial mechanics is",
