@@ -7,9 +7,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from acausal.errors import nearest, shortened
+from acausal.errors import nearest
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import Imported, Native, Predefined, Prefix, refused_package
+from acausal.modelica.meanings import Imported, Native, Predefined, Prefix
 from acausal.modelica.syntax import (
     ClassDefinition,
     Declared,
@@ -19,8 +19,8 @@ from acausal.modelica.syntax import (
     ModificationArgument,
 )
 from acausal.modelica.tokens import PREDEFINED, ModelicaError, Source, read_source
+from acausal.modelica.unknown import PATH_HINT, unknown_name
 from acausal.modelica.views import ClassView, Entry
-from acausal.netlist import find_class
 
 
 class ClassNode:
@@ -43,6 +43,7 @@ class ClassNode:
         self.python: type | None = None
         self.unwatched: set[int] = set()
         self._viewed = False
+        self._bases: dict[int, Any] = {}
         self._searching: set[str] = set()
 
     def __deepcopy__(self, memo: Any) -> ClassNode:
@@ -74,7 +75,8 @@ class ClassNode:
     # -- names ---------------------------------------------------------------------------------------
 
     @cached_property
-    def _elements(self) -> dict[str, ClassDefinition]:
+    def classes(self) -> dict[str, ClassDefinition]:
+        """The classes that its text defines, by name."""
         found: dict[str, ClassDefinition] = {}
         for element in self.definition.elements:
             if isinstance(element, ClassDefinition):
@@ -100,8 +102,8 @@ class ClassNode:
 
     def text(self, name: str) -> ClassNode | None:
         """A class that is defined here, even where a library has one of its name."""
-        if name in self._elements:
-            found = self._elements[name]
+        if name in self.classes:
+            found = self.classes[name]
             if found.prefixes.outer:
                 reason = f"'{name}' is an outer class, which is not supported; make it replaceable"
                 raise self.wrong(found.at, reason, len(name))
@@ -156,7 +158,7 @@ class ClassNode:
         """Whether names mean something else here than in its bases, so that what it inherits is looked up here."""
         arguments = [a for clause in self.extends for a in clause.modifier.arguments]
         classes = any(isinstance(a.redeclared, ClassDefinition) for a in arguments)
-        own = any(element.prefixes.redeclare for element in self._elements.values())
+        own = any(element.prefixes.redeclare for element in self.classes.values())
         return classes or own or self.definition.kind == "package"
 
     def _scope(self, base: ClassNode) -> ClassNode:
@@ -182,7 +184,8 @@ class ClassNode:
         return [e for e in self.definition.elements if isinstance(e, Extends)]
 
     @cached_property
-    def _imports(self) -> list[Import]:
+    def imports(self) -> list[Import]:
+        """Its imports."""
         return [e for e in self.definition.elements if isinstance(e, Import)]
 
     def base(self, extends: Extends, quiet: bool = False) -> Any:
@@ -194,20 +197,29 @@ class ClassNode:
                 found = self.tree.inside(above.base(clause), self.definition.name)
                 if found is not None:
                     return above._inherited_class(f"{self.definition.name} of the base", found)
-        found, rest = self.lookup(extends.base.words)
+        if id(extends) in self._bases:
+            return self._bases[id(extends)]
+        found, rest = self.lookup(extends.base.words, of_base=True)
+        if found is None or rest:
+            found, rest = self.lookup(extends.base.words)
         if found is None or rest:
             if quiet:
                 return None
             raise self.unknown(extends.base)
+        self._bases[id(extends)] = found
         return found
 
-    def lookup(self, words: Sequence[str]) -> tuple[Any, Sequence[str]]:
-        """What a name means here: what is found by its first words, and the words that are left."""
+    def lookup(self, words: Sequence[str], *, of_base: bool = False) -> tuple[Any, Sequence[str]]:
+        """What a name means here: what is found by its first words, and the words that are left.
+
+        Arguments:
+            of_base: whether it names a base, which is not looked for in what is inherited.
+        """
         if words[0] == "":
             found = self.tree.root(words[1])
             rest = words[2:]
         else:
-            found = self._first(words[0])
+            found = self._first(words[0], of_base)
             rest = words[1:]
         while found is not None and rest:
             inner = self.tree.inside(found, rest[0])
@@ -216,7 +228,7 @@ class ClassNode:
             found, rest = inner, rest[1:]
         return found, rest
 
-    def _first(self, word: str) -> Any:
+    def _first(self, word: str, of_base: bool) -> Any:
         node: Any = self
         if word in PREDEFINED:
             return Predefined(word)
@@ -230,7 +242,9 @@ class ClassNode:
                 continue
             if node.definition.name == word and node is not self and node.parent is None:
                 return node
-            found = None if node.definition.short else node.member(word)
+            found = None
+            if not node.definition.short:
+                found = node.own(word) if of_base and node is self else node.member(word)
             if found is None:
                 found = node.imported(word)
             if found is not None:
@@ -240,7 +254,7 @@ class ClassNode:
 
     def imported(self, word: str) -> Any:
         """What an import gives that name."""
-        for clause in self._imports:
+        for clause in self.imports:
             if word in clause.names:
                 found = self.tree.resolve(clause.names[word])
                 if found is None:
@@ -250,7 +264,7 @@ class ClassNode:
                         return Imported(package, last)
                     raise self.wrong(clause.at, f"there is no '{clause.names[word]}'; {PATH_HINT}")
                 return found
-        for clause in self._imports:
+        for clause in self.imports:
             if clause.everything:
                 package = self.tree.resolve(clause.package)
                 found = self.tree.inside(package, word)
@@ -275,25 +289,7 @@ class ClassNode:
 
     def unknown(self, name: DottedName, what: str = "class") -> ModelicaError:
         """The error for a name that means nothing here."""
-        words = [w for w in name.words if w]
-        imported = [f"{c.package}.{name.text}" for c in self._imports if c.everything]
-        if reason := next(filter(None, map(refused_package, (name.text, *imported))), ""):
-            return self.wrong(name.at, reason, len(name.text))
-        if self.tree.root(words[0]) is None or isinstance(self.tree.root(words[0]), ClassNode):
-            known = [
-                *self._elements,
-                *(self.parent._elements if isinstance(self.parent, ClassNode) else ()),
-            ]
-            hint = f"{nearest(words[-1], known)} {PATH_HINT}" if known else PATH_HINT
-        else:
-            try:
-                find_class(self.tree.libraries, name.text)
-                hint = PATH_HINT
-            except KeyError as error:
-                hint = f"{error.args[0].rstrip('.')}; {PATH_HINT}"
-        return self.wrong(
-            name.at, f"there is no {what} '{shortened(name.text)}'; {hint}", len(name.text)
-        )
+        return self.wrong(name.at, unknown_name(self, name, what), len(name.text))
 
     # -- inheritance -----------------------------------------------------------------------------------
 
@@ -452,6 +448,3 @@ class Inherited(ClassNode):
     def view(self) -> ClassView:
         """The heir with what it inherits."""
         return self.heir.view()
-
-
-PATH_HINT = "give the folder that has it by path=[...] or in MODELICAPATH"
