@@ -272,6 +272,18 @@ def test_nonlinear_loops_keep_their_names_and_their_equations_follow():
     assert all(abs(float((e.lhs - e.rhs).subs(values))) < 1e-9 for e in implicit)
 
 
+def test_a_loop_of_cases_is_shown_as_it_is():
+    class Stopped(ac.Component):
+        def __init__(self):
+            super().__init__()
+            self.mass, self.brake = tl.Mass(m=1.0), tl.Brake(fn_max=1.0)
+            self.connect(self.mass.flange_b, self.brake.flange_a)
+
+    _, move, *implicit = ac.compile(Stopped()).equations
+    assert move.rhs == sp.Symbol("mass.a")
+    assert any({str(s) for s in e.free_symbols} >= {"mass.a", "mass.m"} for e in implicit)
+
+
 def test_time_and_shared_networks_in_the_equations():
     class Forced(Equations):
         net = ac.Module(lambda key: jnp.tanh)

@@ -202,11 +202,11 @@ def _is_readable(residuals: list[sp.Expr], unknowns: list[sp.Symbol]) -> bool:
     def named(value: sp.Expr) -> sp.Expr:
         return value if value.is_number else names.setdefault(value, sp.Dummy())
 
-    matrix, right = (m.applyfunc(named) for m in sp.linear_eq_to_matrix(residuals, unknowns))
-    values = {name: value for value, name in names.items()}
     try:
+        matrix, right = (m.applyfunc(named) for m in sp.linear_eq_to_matrix(residuals, unknowns))
+        values = {name: value for value, name in names.items()}
         found = matrix.LUsolve(right).xreplace(values)
-    except ValueError:  # singular: there is nothing to read
+    except ValueError:  # singular, or linear in each case alone: there is nothing to read
         return False
     return sum(e.count_ops() for e in found) <= MAX_OPERATIONS
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Any
 
 import sympy as sp
@@ -147,7 +148,7 @@ class _Sorting:
                 equations.append(one)  # refused where templates are made
             elif (target := _discrete_side(one)) is not None:
                 value = one.rhs if target is one.lhs else one.lhs
-                self._update(target, self._watched(number_or_truth(value)), str(one))
+                self._update(target, self._watched(number_or_truth(value)), _written(one, target))
             else:
                 equations.append(self._continuous(one))
         for one in whens:
@@ -381,6 +382,12 @@ def _discrete_side(equation: Eq) -> Reference | None:
         if isinstance(side, Reference) and isinstance(side.declaration, Variable):
             return side if isinstance(side.declaration, Discrete) else None
     return None
+
+
+def _written(equation: Eq, target: Reference) -> str:
+    """An equation as a text; of one of a thousand parts, as tables of logic have, only what it gives."""
+    parts = islice(sp.preorder_traversal(sp.Tuple(equation.lhs, equation.rhs)), 1000)
+    return str(equation) if sum(1 for _ in parts) < 1000 else f"{target} = ..."
 
 
 def _in_order(expressions: Iterable[Any]) -> list[Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from contextlib import suppress
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -25,9 +26,10 @@ from acausal.modelica.syntax import (
     Several,
     Statement,
 )
-from acausal.modelica.values import Record, each
+from acausal.modelica.values import Record, each, elements
 
 MAX_STATEMENTS = 20_000
+MAX_PARTS = 100_000
 REFUSED = {
     "delay": "use the block Modelica.Blocks.Nonlinear.PadeDelay, an approximation",
     "spatialDistribution": "divide the pipe into volumes",
@@ -35,7 +37,10 @@ REFUSED = {
     "inStream": "use connectors without stream variables",
     "actualStream": "use connectors without stream variables",
     "getInstanceName": "write the name as a text",
-    "terminate": "give the end of the simulation",
+    **dict.fromkeys(
+        ("Clock", "previous", "hold", "interval", "subSample", "superSample", "noClock"),
+        "write 'when sample(start, period) then', or use Modelica.Blocks.Discrete",
+    ),
 }
 
 
@@ -113,6 +118,12 @@ class Algorithms(Overloading):
             what = target.text if isinstance(target, DottedName) else "this"
             raise self.wrong(f"'{what}' cannot be assigned here")
         word = target.words[0]
+        if any(isinstance(v, sp.Basic) and _parts(v) > MAX_PARTS for v in elements(value)):
+            raise self.wrong(
+                f"'{word}' becomes an expression of more than {MAX_PARTS} parts; make fewer steps, "
+                "or state an equation for what they lead to",
+                len(word),
+            )
         if self.left is not True:
             changed = self._changed(local[word], target, 0, value)
             kept = self.left is not False
@@ -224,15 +235,20 @@ class Algorithms(Overloading):
         return holds
 
     def perform(self, call: FunctionCall) -> None:
-        """A call that stands alone: an assertion.
+        """A call that stands alone: an assertion, or a function that may have some.
 
         Raises:
             ModelicaError: for others.
         """
         word = call.function.text
         self.at = call.at
+        found, rest = self.frame.find(call.function.words)
         if self.full_name(call) == "Modelica.Utilities.Streams.print":
             self.unwatched(call, "this text is not printed")
+        elif word == "terminate":
+            self.unwatched(call, "this does not end the simulation; give its end to simulate(...)")
+        elif isinstance(found, ClassNode) and found.definition.kind == "function" and not rest:
+            self.inlined(found, call)
         elif word != "assert":
             hint = f"; {REFUSED[word]}" if word in REFUSED else ""
             raise self.wrong(f"{word}(...) is not supported here{hint}", len(word))
@@ -268,6 +284,12 @@ class Algorithms(Overloading):
                 arguments[1].value if isinstance(arguments[1], LiteralConstant) else "it is false"
             )
             raise self.wrong(f"this assertion is violated: {text}")
+
+
+@lru_cache(maxsize=50_000)
+def _parts(value: sp.Basic) -> int:
+    """How many parts an expression has; one that it has several times counts as often."""
+    return 1 + sum(map(_parts, value.args))
 
 
 class _Layered(dict[str, Any]):

@@ -138,6 +138,7 @@ class Build:
         given_inwards: variables of parts that equal one of this component, and that one.
         graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
+        fixed: of arrays of which some elements alone are fixed at the start, which.
         counted: how often connectors are connected, by owner and name; not by what `statements.check` adds.
     """
 
@@ -155,6 +156,7 @@ class Build:
         self.given_inwards: list[tuple[Reference, Reference]] = []
         self.decided: dict[str, float] = {}
         self.counted: dict[Any, int] = {}
+        self.fixed: dict[str, Any] = {}
         self.parts_of_text: list[ModelicaModel] = []
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from acausal.errors import nearest, shortened
+from acausal.errors import nearest
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import Native, Predefined, Prefix
+from acausal.modelica.meanings import Imported, Native, Predefined, Prefix
 from acausal.modelica.syntax import (
     ClassDefinition,
     Declared,
@@ -20,8 +19,8 @@ from acausal.modelica.syntax import (
     ModificationArgument,
 )
 from acausal.modelica.tokens import PREDEFINED, ModelicaError, Source, read_source
+from acausal.modelica.unknown import PATH_HINT, unknown_name
 from acausal.modelica.views import ClassView, Entry
-from acausal.netlist import find_class
 
 
 class ClassNode:
@@ -44,6 +43,7 @@ class ClassNode:
         self.python: type | None = None
         self.unwatched: set[int] = set()
         self._viewed = False
+        self._bases: dict[int, Any] = {}
         self._searching: set[str] = set()
 
     def __deepcopy__(self, memo: Any) -> ClassNode:
@@ -75,7 +75,8 @@ class ClassNode:
     # -- names ---------------------------------------------------------------------------------------
 
     @cached_property
-    def _elements(self) -> dict[str, ClassDefinition]:
+    def classes(self) -> dict[str, ClassDefinition]:
+        """The classes that its text defines, by name."""
         found: dict[str, ClassDefinition] = {}
         for element in self.definition.elements:
             if isinstance(element, ClassDefinition):
@@ -101,8 +102,12 @@ class ClassNode:
 
     def text(self, name: str) -> ClassNode | None:
         """A class that is defined here, even where a library has one of its name."""
-        if name in self._elements:
-            return ClassNode(self._elements[name], self, self.tree)
+        if name in self.classes:
+            found = self.classes[name]
+            if found.prefixes.outer:
+                reason = f"'{name}' is an outer class, which is not supported; make it replaceable"
+                raise self.wrong(found.at, reason, len(name))
+            return ClassNode(found, self, self.tree)
         if self.folder is not None:
             for file in (self.folder / f"{name}.mo", self.folder / name / "package.mo"):
                 if file.is_file():
@@ -126,11 +131,15 @@ class ClassNode:
                         return ClassNode(argument.redeclared, self, self.tree)
                 base = self.base(extends, quiet=True)
                 found = self.tree.inside(base, name)
-                if found is not None:
+                if found is not None and not self._is_guess(found):
                     return self._inherited_class(name, found)
         finally:
             self._searching.discard(name)
         return None
+
+    def _is_guess(self, found: Any) -> bool:
+        """Whether this may be a package whose text is not given, or no name at all."""
+        return isinstance(found, Prefix) and not self.tree.has_package(found.full)
 
     def with_classes(self, classes: Mapping[str, Any]) -> ClassNode:
         """The same class with other classes in the place of replaceable ones; the same for the same classes."""
@@ -149,7 +158,7 @@ class ClassNode:
         """Whether names mean something else here than in its bases, so that what it inherits is looked up here."""
         arguments = [a for clause in self.extends for a in clause.modifier.arguments]
         classes = any(isinstance(a.redeclared, ClassDefinition) for a in arguments)
-        own = any(element.prefixes.redeclare for element in self._elements.values())
+        own = any(element.prefixes.redeclare for element in self.classes.values())
         return classes or own or self.definition.kind == "package"
 
     def _scope(self, base: ClassNode) -> ClassNode:
@@ -175,7 +184,8 @@ class ClassNode:
         return [e for e in self.definition.elements if isinstance(e, Extends)]
 
     @cached_property
-    def _imports(self) -> list[Import]:
+    def imports(self) -> list[Import]:
+        """Its imports."""
         return [e for e in self.definition.elements if isinstance(e, Import)]
 
     def base(self, extends: Extends, quiet: bool = False) -> Any:
@@ -187,22 +197,29 @@ class ClassNode:
                 found = self.tree.inside(above.base(clause), self.definition.name)
                 if found is not None:
                     return above._inherited_class(f"{self.definition.name} of the base", found)
-        found, rest = self.lookup(
-            extends.base.words, skip=self.definition.name if self.definition.short else ""
-        )
+        if id(extends) in self._bases:
+            return self._bases[id(extends)]
+        found, rest = self.lookup(extends.base.words, of_base=True)
+        if found is None or rest:
+            found, rest = self.lookup(extends.base.words)
         if found is None or rest:
             if quiet:
                 return None
             raise self.unknown(extends.base)
+        self._bases[id(extends)] = found
         return found
 
-    def lookup(self, words: Sequence[str], skip: str = "") -> tuple[Any, Sequence[str]]:
-        """What a name means here: what is found by its first words, and the words that are left."""
+    def lookup(self, words: Sequence[str], *, of_base: bool = False) -> tuple[Any, Sequence[str]]:
+        """What a name means here: what is found by its first words, and the words that are left.
+
+        Arguments:
+            of_base: whether it names a base, which is not looked for in what is inherited.
+        """
         if words[0] == "":
             found = self.tree.root(words[1])
             rest = words[2:]
         else:
-            found = self._first(words[0])
+            found = self._first(words[0], of_base)
             rest = words[1:]
         while found is not None and rest:
             inner = self.tree.inside(found, rest[0])
@@ -211,7 +228,7 @@ class ClassNode:
             found, rest = inner, rest[1:]
         return found, rest
 
-    def _first(self, word: str) -> Any:
+    def _first(self, word: str, of_base: bool) -> Any:
         node: Any = self
         if word in PREDEFINED:
             return Predefined(word)
@@ -225,7 +242,9 @@ class ClassNode:
                 continue
             if node.definition.name == word and node is not self and node.parent is None:
                 return node
-            found = node.member(word)
+            found = None
+            if not node.definition.short:
+                found = node.own(word) if of_base and node is self else node.member(word)
             if found is None:
                 found = node.imported(word)
             if found is not None:
@@ -235,7 +254,7 @@ class ClassNode:
 
     def imported(self, word: str) -> Any:
         """What an import gives that name."""
-        for clause in self._imports:
+        for clause in self.imports:
             if word in clause.names:
                 found = self.tree.resolve(clause.names[word])
                 if found is None:
@@ -245,11 +264,11 @@ class ClassNode:
                         return Imported(package, last)
                     raise self.wrong(clause.at, f"there is no '{clause.names[word]}'; {PATH_HINT}")
                 return found
-        for clause in self._imports:
+        for clause in self.imports:
             if clause.everything:
                 package = self.tree.resolve(clause.package)
                 found = self.tree.inside(package, word)
-                if isinstance(found, Prefix) and not self.tree.has_package(found.full):
+                if self._is_guess(found):
                     found = None
                 if found is None and isinstance(package, ClassNode) and package.has_value(word):
                     found = Imported(package, word)
@@ -259,26 +278,18 @@ class ClassNode:
 
     def has_value(self, name: str) -> bool:
         """Whether this is a constant of a package, or a value of an enumeration."""
-        return name in self.view().entries or name in (self.definition.literals or ())
+        return name in self.view().entries or name in self.literals
+
+    @cached_property
+    def literals(self) -> dict[str, str]:
+        """The values of an enumeration by name, each with its text."""
+        short = self.definition.short
+        base = self.base(self.extends[0], quiet=True) if short and self.extends else None
+        return self.definition.literals or (base.literals if isinstance(base, ClassNode) else {})
 
     def unknown(self, name: DottedName, what: str = "class") -> ModelicaError:
         """The error for a name that means nothing here."""
-        words = [w for w in name.words if w]
-        if self.tree.root(words[0]) is None or isinstance(self.tree.root(words[0]), ClassNode):
-            known = [
-                *self._elements,
-                *(self.parent._elements if isinstance(self.parent, ClassNode) else ()),
-            ]
-            hint = f"{nearest(words[-1], known)} {PATH_HINT}" if known else PATH_HINT
-        else:
-            try:
-                find_class(self.tree.libraries, name.text)
-                hint = PATH_HINT
-            except KeyError as error:
-                hint = f"{error.args[0].rstrip('.')}; {PATH_HINT}"
-        return self.wrong(
-            name.at, f"there is no {what} '{shortened(name.text)}'; {hint}", len(name.text)
-        )
+        return self.wrong(name.at, unknown_name(self, name, what), len(name.text))
 
     # -- inheritance -----------------------------------------------------------------------------------
 
@@ -341,6 +352,9 @@ class ClassNode:
                 view.natives.append((base, arguments))
                 return
             case Prefix() if base.full.startswith("Modelica.Icons"):
+                return
+            case Prefix() if any(lib.is_enumeration(base.full) for lib in self.tree.libraries):
+                view.predefined = Predefined(base.full)
                 return
             case ClassNode():
                 pass
@@ -434,14 +448,3 @@ class Inherited(ClassNode):
     def view(self) -> ClassView:
         """The heir with what it inherits."""
         return self.heir.view()
-
-
-@dataclass(frozen=True, eq=False)
-class Imported:
-    """A constant of a package that an import names."""
-
-    node: ClassNode
-    name: str
-
-
-PATH_HINT = "give the folder that has it by path=[...] or in MODELICAPATH"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -96,6 +96,10 @@ class Connecting(Interpreter):
             case list(), list() if len(left) == len(right):
                 for a, b in zip(left, right, strict=True):
                     self._join(a, b)
+            case list(), list() if isinstance(left[0], list) != isinstance(right[0], list) and len(
+                _rows(left)
+            ) == len(_rows(right)):  # some classes of the library have one list of all rows
+                self._join(_rows(left), _rows(right))
             case (Connector() | Reference(), Connector() | Reference()) if owner_and_name(
                 left
             ) == owner_and_name(right):
@@ -151,6 +155,12 @@ class Connecting(Interpreter):
             if self.known(self.holds(test), "a condition of connections"):
                 return body
         return []
+
+
+def _rows(ends: Any) -> list[Any]:
+    """The elements of nested lists, row by row."""
+    many = isinstance(ends, list)
+    return [e for one in cast(list[Any], ends) for e in _rows(one)] if many else [ends]
 
 
 def _connects(stated: Iterable[Statement]) -> bool:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
+
+import numpy as np
 
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.functions import Interpreter
@@ -37,7 +39,7 @@ def connector(build: Any, name: str, found: Type, inner: list[Given]) -> Any:
         node = node.with_classes({g.name: redeclared_class(g.redeclared, g.frame) for g in classes})
         inner = [g for g in inner if g not in classes]
     if node is not None and is_expandable(node):
-        return bus(build, name, node)
+        return bus(build, name, node, inner)
     if node is not None and (node.definition.kind != "connector" or _is_composite(node)):
         return _composite(build, name, found, node, inner)
     build.later.append(lambda: modify_connector(build, name, inner))
@@ -52,13 +54,28 @@ def is_expandable(node: ClassNode) -> bool:
     )
 
 
-def bus(build: Any, name: str, node: ClassNode) -> Bus:
+def bus(build: Any, name: str, node: ClassNode, given: Sequence[Given] = ()) -> Bus:
     """An expandable connector; of its declared members only those are there already that are expandable, too."""
-    found = Bus(build, name)
+    found, known = Bus(build, name), dict[str, Any]()
     for word, entry in node.view().entries.items():
-        inner = _type(entry).node
-        if inner is not None and not entry.declared.subscripts and is_expandable(inner):
-            found.fields[word] = bus(build, f"{name}.{word}", inner)
+        frame, inner = Frame(entry.node, None, known), _type(entry).node
+        modifiers = [g for a, n in entry.modifiers for g in given_by([a], Frame(n, None, known))]
+        mod = modification(entry.declared, [*given, *modifiers], frame)
+        if entry.declared.prefixes.variability and mod.value is not None:
+            known[word] = mod.value.value()
+        if inner is None or not is_expandable(inner):
+            found.declared.add(word)
+            continue
+        sizes = [Interpreter(frame).size(s) for s in entry.declared.subscripts]
+        if not sizes:
+            found.fields[word] = bus(build, f"{name}.{word}", inner, mod.inner)
+            continue
+        elements = np.empty(sizes, dtype=object)
+        for place in np.ndindex(*sizes):
+            element = f"{word}[{','.join(str(i + 1) for i in place)}]"
+            elements[place] = bus(build, f"{name}.{element}", inner, mod.inner)
+            found.fields[element] = elements[place]
+        found.arrays[word] = elements.tolist()
     return found
 
 

@@ -11,8 +11,8 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import nearest, shortened
-from acausal.modelica.classes import ClassNode, Imported
-from acausal.modelica.meanings import Literal, Native, Predefined, Prefix, Value
+from acausal.modelica.classes import ClassNode
+from acausal.modelica.meanings import Imported, Literal, Native, Predefined, Prefix, Value
 from acausal.modelica.operators import Frame, Operators
 from acausal.modelica.outer import inwards
 from acausal.modelica.syntax import (
@@ -257,7 +257,9 @@ class Evaluator(Operators):
         if word in frame.local:
             value = frame.local[word]
             if value is None:
-                raise self.wrong(f"'{word}' is used before it is assigned", len(word))
+                raise self.wrong(
+                    f"'{word}' is used before it is assigned; assign it first", len(word)
+                )
             return value, 1
         if frame.build is not None and word in frame.build.names:
             value = frame.build.member(word)
@@ -273,7 +275,7 @@ class Evaluator(Operators):
                 return found.value, i
             case Imported():
                 return self.constant(found.node, found.name), i
-            case ClassNode() if not rest and found.definition.literals is not None:
+            case ClassNode() if not rest and found.literals:
                 return array_of(literals(found)), i
             case Predefined("Boolean"):
                 return array_of([False, True]), i
@@ -324,7 +326,7 @@ class Evaluator(Operators):
 
     def constant(self, node: ClassNode, name: str) -> Any:
         """A constant of a package, or a value of an enumeration."""
-        if name in (node.definition.literals or ()):
+        if name in node.literals:
             return literal(node, name)
         known: dict[str, Any] = node.__dict__.setdefault("constants", {})
         if name not in known:
@@ -390,12 +392,12 @@ class Evaluator(Operators):
 
 def literal(node: ClassNode, word: str) -> Literal:
     """The value of an enumeration."""
-    return literals(node)[list(node.definition.literals or ()).index(word)]
+    return literals(node)[list(node.literals).index(word)]
 
 
 def literals(node: ClassNode) -> list[Literal]:
     """All values of an enumeration."""
-    found = [Literal(text) for text in (node.definition.literals or {}).values()]
+    found = [Literal(text) for text in node.literals.values()]
     for number, one in enumerate(found, start=1):
         one.number, one.among = number, found
     return found

@@ -12,7 +12,15 @@ import numpy as np
 from acausal.modelica.sections import SectionReader
 from acausal.modelica.statements import fed_by_connections
 from acausal.modelica.syntax import FunctionCall
-from acausal.modelica.values import Bus, BusMember, as_array, elements, nested, type_of
+from acausal.modelica.values import (
+    Bus,
+    BusMember,
+    as_array,
+    elements,
+    nested,
+    type_of,
+    without_index,
+)
 from acausal.modeling import Connector, Input, Output, Reference
 
 
@@ -64,6 +72,9 @@ class _Collector(SectionReader):
             if isinstance(one, Bus) and isinstance(other, Bus | BusMember):
                 other = other.bus.nested(other.name) if isinstance(other, BusMember) else other
                 one.links.append((self.frame.build, other))
+            elif isinstance(one, BusMember) and isinstance(other, list) and [*_buses(other)]:
+                for i, element in enumerate(other, start=1):
+                    self._join(one.element([i]), element)
             elif isinstance(one, BusMember):
                 end = BusEnd(as_array(other), self, self.at)
                 one.bus.ends.setdefault(one.name, []).append(end)
@@ -95,7 +106,8 @@ def expand(top: Any) -> None:
         pass
     members = [(bus, name) for bus in _buses(roots) for name in bus.ends]
     for bus, name in members:
-        if _any(bus, name, bus.build, lambda end: True):
+        used = name in bus.declared and _known(bus, name)  # maybe, in an expression
+        if used or _any(bus, name, bus.build, lambda end: True):
             _declare(bus, name)
     for build in builds:
         done = set[tuple[int, str]]()
@@ -193,7 +205,7 @@ def _declare(bus: Bus, name: str) -> None:
             one.build is build and word in one.fields for one, word in _net(bus, name, build)
         )
         declared = Output(**given) if fed else Input(kind=kind, **given)
-        build.types[path.partition("[")[0]] = type_of(first)
+        build.types[without_index(path)] = type_of(first)
     else:
         raise known[0].wrong(
             f"'{path}' of an expandable connector has to be a signal or a connector"

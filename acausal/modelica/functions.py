@@ -24,6 +24,7 @@ from acausal.modelica.syntax import (
     Whole,
 )
 from acausal.modelica.values import (
+    FunctionValue,
     Record,
     array_of,
     as_record,
@@ -40,7 +41,7 @@ TEXTS: dict[str, Callable[..., Any]] = {
     "ModelicaStrings_substring": lambda text, first, last: text[first - 1 : last],
 }
 """Functions of texts that are known when the model is built, by their name in C."""
-REFUSED_PACKAGES = ("Connections.", "Modelica.Utilities.", "Clock", "previous", "hold", "interval")
+REFUSED_PACKAGES = ("Connections.", "Modelica.Utilities.")
 
 
 class Interpreter(Algorithms):
@@ -51,6 +52,9 @@ class Interpreter(Algorithms):
     def _call(self, call: FunctionCall) -> Any:
         words = call.function.words
         name = words[1] if words[0] == "" and len(words) == 2 else call.function.text
+        local = self.frame.local.get(name)
+        if call.partial or isinstance(local, FunctionValue):
+            return self._of_argument(self.function(call), call)
         special = SPECIAL.get(name)
         if special is not None and name not in self.frame.local:
             return special(self, call)
@@ -69,6 +73,8 @@ class Interpreter(Algorithms):
             return special(self, call)
         if isinstance(found, ClassNode) and found.definition.kind == "function":
             results = self.inlined(found, call)
+            if not results:
+                raise self.wrong(f"{found.definition.name} has no result", len(name))
             return results[0]
         given = [self.value(a) for a in call.arguments]
         named = {k: self.value(v) for k, v in call.named.items()}
@@ -95,6 +101,40 @@ class Interpreter(Algorithms):
             raise self.wrong(f"'{name}' is not a function", len(name))
         self.at = call.function.at
         raise self.frame.node.unknown(call.function, "function")
+
+    def function(self, expression: Expression) -> FunctionValue:
+        """An argument that is a function: its name, or ``function f(a = 1)``."""
+        name = expression.function if isinstance(expression, FunctionCall) else expression
+        self.at = expression.at
+        if isinstance(expression, LiteralConstant) and isinstance(expression.value, FunctionValue):
+            return expression.value
+        if not isinstance(name, DottedName):
+            raise self.wrong("a function is needed here")
+        found: Any = self.frame.local.get(name.text)
+        if not isinstance(found, FunctionValue):
+            node, rest = self.frame.find(name.words)
+            if rest or not isinstance(node, ClassNode) or node.definition.kind != "function":
+                raise self.wrong("a function of the text is needed here", len(name.text))
+            found = FunctionValue(node, {})
+        if not isinstance(expression, FunctionCall) or not expression.partial:
+            return found
+        if expression.arguments:
+            raise self.wrong("the arguments of a function that is an argument itself have names")
+        named = {k: self.value(v) for k, v in expression.named.items()}
+        return FunctionValue(found.node, {**found.named, **named})
+
+    def _of_argument(self, function: FunctionValue, call: FunctionCall) -> Any:
+        """The result of a function that is an argument; itself where it is passed on."""
+        if call.partial:
+            return function
+        names = [n for n in _inputs(function.node) if n not in function.named]
+        if len(call.arguments) > len(names):
+            raise self.wrong(f"'{call.function.text}' takes {len(names)} arguments here")
+        given = dict(zip(names, call.arguments, strict=False)) | call.named
+        known = {k: LiteralConstant(v, call.at) for k, v in function.named.items()}
+        return self.inlined(
+            function.node, FunctionCall(call.function, [], {**known, **given}, call.at)
+        )[0]
 
     def _of_part(self, words: tuple[str, ...]) -> Any:
         """A function of the class of a part, such as ``oil.density``."""
@@ -185,18 +225,21 @@ class Interpreter(Algorithms):
                     length,
                 )
             return [self._of_library(plain, external, given, {})]
-        inputs = [n for n, e in view.entries.items() if e.declared.prefixes.causality == "input"]
+        inputs = _inputs(node)
         outputs = [n for n, e in view.entries.items() if e.declared.prefixes.causality == "output"]
         if len(call.arguments) > len(inputs):
             raise self.wrong(
                 f"{definition.name} takes {len(inputs)} arguments, not {len(call.arguments)}",
                 length,
             )
-        values = {n: self.value(a) for n, a in zip(inputs, call.arguments, strict=False)}
-        for name, expression in call.named.items():
+        stated = dict(zip(inputs, call.arguments, strict=False)) | call.named
+        values: dict[str, Any] = {}
+        for name, expression in stated.items():
             if name not in inputs:
                 raise self.wrong(f"{definition.name} has no argument '{name}'", length)
-            values[name] = self.value(expression)
+            kind, _ = view.entries[name].node.lookup(view.entries[name].declared.type.words)
+            is_function = isinstance(kind, ClassNode) and kind.definition.kind == "function"
+            values[name] = self.function(expression) if is_function else self.value(expression)
         self.at = at
         if arrays := [n for n, v in values.items() if np.ndim(v) > _dimensions(view.entries[n])]:
             return self._for_each_element(node, call, values, arrays)
@@ -225,8 +268,6 @@ class Interpreter(Algorithms):
         for name in outputs:
             if local[name] is None or any(v is None for v in elements(local[name])):
                 raise self.wrong(f"{definition.name} does not assign '{name}'", length)
-        if not outputs:
-            raise self.wrong(f"{definition.name} has no result", length)
         return [local[name] for name in outputs]
 
     def _for_each_element(
@@ -262,6 +303,12 @@ class Interpreter(Algorithms):
             return None
         check_size(int(np.prod(shape)), "the array")
         return np.empty(shape, dtype=object)
+
+
+def _inputs(node: ClassNode) -> list[str]:
+    """The arguments of a function, in order."""
+    entries = node.view().entries.items()
+    return [n for n, e in entries if e.declared.prefixes.causality == "input"]
 
 
 def _dimensions(entry: Entry) -> float:

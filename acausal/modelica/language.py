@@ -209,6 +209,17 @@ def _cross(self: Evaluator, call: FunctionCall) -> Any:
     return array_of([a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))])
 
 
+def _skew(self: Evaluator, call: FunctionCall) -> Any:
+    x, y, z = self.arguments(call, 1)[0]
+    minus = [self.arithmetic("-", 0, v) for v in (x, y, z)]
+    return array_of([[0, minus[2], y], [z, 0, minus[0]], [minus[1], x, 0]])
+
+
+def _outer_product(self: Evaluator, call: FunctionCall) -> Any:
+    a, b = self.arguments(call, 2)
+    return array_of([[self.arithmetic("*", x, y) for y in b] for x in a])
+
+
 def _rounding(
     function: Callable[[Evaluator, Any, Any], Any], least: int
 ) -> Callable[[Evaluator, FunctionCall], Any]:
@@ -264,6 +275,13 @@ def _cardinality(self: Evaluator, call: FunctionCall) -> Any:
         pairs = [pair for n in (node, *node.ancestors()) for pair in n.connections]
         counted[wanted] = sum(owner_and_name(e) == wanted for pair in pairs for e in pair)
     return counted[wanted]
+
+
+def _norm(self: Evaluator, call: FunctionCall) -> Any:
+    """The Euclidean norm of a vector."""
+    (vector,) = self.arguments(call, 1)
+    squares = reduce(lambda a, v: self.arithmetic("+", a, self.arithmetic("*", v, v)), vector, 0)
+    return self.arithmetic("^", squares, 0.5)
 
 
 def _assertion(self: Evaluator, call: FunctionCall) -> Any:
@@ -328,11 +346,13 @@ SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "zeros": _filled(0), "ones": _filled(1), "fill": _filled(None), "identity": _identity, "diagonal": _diagonal,
     "linspace": _linspace, "transpose": _on_array(lambda a: a.T), "vector": _on_array(lambda a: a.reshape(-1)),
     "scalar": _on_array(lambda a: a.reshape(-1)[0]), "matrix": _on_array(lambda a: a.reshape(len(a), -1)),
-    "cat": _cat, "array": _array, "cross": _cross,
+    "cat": _cat, "array": _array, "cross": _cross, "skew": _skew, "outerProduct": _outer_product,
+    "symmetric": _on_array(lambda a: np.triu(a) + np.triu(a, 1).T),
     "integer": _rounding(_floor, 1), "floor": _rounding(_floor, 1), "ceil": _rounding(_ceil, 1),
     "div": _rounding(_div, 2), "mod": _rounding(_mod, 2), "rem": _rounding(_rem, 2),
     "Integer": _rounding(_integer_of, 1), "String": _string, "cardinality": _cardinality, "assert": _assertion,
     "Modelica.Utilities.Files.loadResource": _resource,
+    "Modelica.Math.Vectors.norm": _norm, "Modelica.Math.Vectors.length": _norm,
     "Modelica.Math.Matrices.inv": _of_numbers(np.linalg.inv), "Modelica.Math.Matrices.det": _of_numbers(np.linalg.det),
     "Modelica.Math.Matrices.solve": _of_numbers(np.linalg.solve, 2),
     "Modelica.Math.Matrices.eigenValues": _of_numbers(_eigenvalues),

@@ -12,6 +12,7 @@ from acausal.errors import ModelError
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Given, Modification
+from acausal.modelica.syntax import ArrayConstructor
 from acausal.modelica.values import nested, of
 from acausal.modeling import Component, Eq, Option, Variable, check_nested
 from acausal.netlist import NetlistError, Scope, is_structural, make, modify
@@ -53,6 +54,10 @@ def make_part(cls: Any, given: Sequence[Given], base: Any = None) -> Any:
         if is_structural(cls, name):
             first = first or one
             raw[name] = _structural(cls, name, mod)
+        elif mod.value is not None and isinstance(mod.value.expression, ArrayConstructor):
+            shape = getattr(cls._declared.get(name), "shape", None) or ()
+            if len(shape) == 1 and isinstance(shape[0], str):  # an open size is that of the value
+                raw.setdefault(shape[0], len(mod.value.expression.items))
     try:
         return make(ModifierValues(), cls, raw, cls.__name__, cls.__name__, base)[0]
     except ModelError as error:

@@ -67,8 +67,11 @@ class Bound:
     index: Index = ()
 
     def __deepcopy__(self, memo: Any) -> Bound:
-        """The same text, in a copy of the model."""
-        return Bound(self.expression, deepcopy(self.frame, memo), self.index)
+        """The same text, or a copy of a value, in a copy of the model."""
+        expression = self.expression
+        if isinstance(expression, LiteralConstant):
+            expression = LiteralConstant(deepcopy(expression.value, memo), expression.at)
+        return Bound(expression, deepcopy(self.frame, memo), self.index)
 
     def value(self) -> Any:
         """Its value."""

@@ -16,6 +16,7 @@ from acausal.modelica.syntax import (
     Expression,
     OperatorExpression,
 )
+from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.values import (
     Absent,
     Record,
@@ -268,7 +269,11 @@ class Operators(Arithmetic):
                 otherwise = self.value(branch)
                 break
             if holds is not False:
-                branches.append((holds, self.value(branch)))
+                try:
+                    branches.append((holds, self.value(branch)))
+                except ModelicaError:  # no matter where parameters rule that branch out
+                    if self.varies(holds) or self.known(holds, "this condition"):
+                        raise
         else:
             otherwise = self.value(expression.otherwise)
         for holds, value in reversed(branches):

@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.syntax import FunctionCall
 from acausal.modelica.values import Redundant
@@ -116,7 +118,8 @@ def _records(self: Evaluator, call: FunctionCall) -> list[GraphNode]:
     found = [self.value(a) for a in call.arguments[:count]]
     self.connecting = before
     if len(found) < count or not all(isinstance(v, Component | Redundant) for v in found):
-        raise self.wrong(
-            f"{call.function.text} takes records of connectors", len(call.function.text)
-        )
+        spatial = any(np.shape(v) == (3, 3) for v in found)  # the orientation of a frame
+        hint = "; spatial mechanics is not supported" if spatial else ""
+        name = call.function.text
+        raise self.wrong(f"{name} takes records of connectors{hint}", len(name))
     return found

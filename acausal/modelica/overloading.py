@@ -48,11 +48,11 @@ class Overloading(Evaluator):
 
     def _operator(self, sign: str, values: Sequence[Any]) -> Any:
         node: ClassNode = next(v.node for v in values if isinstance(v, Record))
-        given = [self._made(node, v) for v in values]
-        function = self._of_class(node, f"'{sign}'", given, {})
-        if function is None:
-            raise self.wrong(f"'{node.full}' has no operator '{sign}' for {len(given)} operand(s)")
-        return self._called(function, given, {})
+        for given in (list(values), [self._made(node, v) for v in values]):
+            function = self._of_class(node, f"'{sign}'", given, {})
+            if function is not None:
+                return self._called(function, given, {})
+        raise self.wrong(f"'{node.full}' has no operator '{sign}' for {len(values)} operand(s)")
 
     def _dot(self, left: Any, right: Any) -> Any:
         """The product of arrays; that of two vectors by the function that takes them, if there is one."""
@@ -80,8 +80,9 @@ class Overloading(Evaluator):
         return reduce(lambda a, b: self._applied("+", a, b), values)
 
     def _made(self, node: ClassNode, value: Any) -> Any:
-        """A number as a record; a record as it is."""
-        return value if isinstance(value, Record) else self.constructed(node, [value], {})
+        """A number as a record, where a constructor takes one; others as they are."""
+        function = None if is_record(value) else self._of_class(node, "constructor", [value], {})
+        return value if function is None else self._called(function, [value], {})
 
     def _of_class(
         self, node: ClassNode, word: str, given: Sequence[Any], named: dict[str, Any]

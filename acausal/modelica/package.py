@@ -11,7 +11,7 @@ from acausal import netlist
 from acausal.errors import ModelError, nearest
 from acausal.files import need_path
 from acausal.modelica.build import class_of
-from acausal.modelica.classes import PATH_HINT, ClassNode
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.connectors import connector_class
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.meanings import Native, Value
@@ -19,6 +19,7 @@ from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import ClassDefinition
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.tree import Tree
+from acausal.modelica.unknown import PATH_HINT
 
 
 class ModelicaPackage:

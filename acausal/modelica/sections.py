@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import islice
-from types import MappingProxyType
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -14,7 +12,6 @@ import sympy as sp
 from acausal.errors import DeclarationError
 from acausal.modelica.connecting import Connecting, is_of_graph
 from acausal.modelica.meanings import Literal
-from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import (
     Branches,
     Connect,
@@ -30,10 +27,8 @@ from acausal.modelica.syntax import (
 from acausal.modelica.values import (
     Absent,
     Record,
-    as_record,
-    each,
+    as_array,
     elements,
-    is_record,
     of,
     type_of,
 )
@@ -49,16 +44,13 @@ from acausal.modeling import (
     pre,
 )
 
-LARGE = 1000
-"""A value of so many parts, at least, is kept as a variable between two statements of an algorithm."""
-
 
 class SectionReader(Connecting):
     """Reads the statements of one section."""
 
     jumps: list[Reinit] | None = None
-    assigned: Mapping[str, Any] = MappingProxyType({})
-    """Variables of the component that an algorithm assigns outside of ``when``."""
+    further: list[Eq]
+    """Of variables that it has added to the component."""
 
     # -- equations ---------------------------------------------------------------------------------------
 
@@ -265,78 +257,21 @@ class SectionReader(Connecting):
         else:
             super().perform(call)
 
-    # -- algorithms ----------------------------------------------------------------------------------------
+    # -- further variables ---------------------------------------------------------------------------------
 
-    def algorithm(self, stated: list[Statement]) -> Iterator[Any]:
-        """The equations of an algorithm: each variable that it assigns equals its last value."""
-        build = self.frame.build
-        assert build is not None
-        always, at_events = set[str](), set[str]()
-        own = [s for s in stated if not self._is_of_part(s)]
-        collect([s for s in own if not _is_when(s)], always, within=True)
-        collect([s for s in stated if _is_when(s)], at_events, within=True)
-        if both := sorted(always & at_events):
-            raise self.wrong(
-                f"'{both[0]}' is assigned within 'when' and outside of it, which is not supported"
-            )
-        variables = {w: build.member(w) for w in sorted(always | at_events) if w in build.names}
-        local: dict[str, Any] = {
-            w: each(_before, variables[w]) if w in always else variables[w] for w in variables
-        }
-        frame = self.frame
-        self.assigned, self.further = {w: v for w, v in variables.items() if w in always}, []
-        for statement in stated:
-            self.frame = Frame(frame.node, build, local, frame.events)
-            self.at = statement.at
-            if isinstance(statement, Branches) and statement.word == "when":
-                yield self._when(
-                    statement, lambda body: self._assigned(body, local, variables, at_events)
-                )
-            elif isinstance(statement, EquationStatement) and statement not in own:
-                yield from self._equation(statement)
-            else:
-                self.execute([statement], local)
-        self.frame, self.assigned = frame, {}
-        yield from self.further
-        for word in sorted(always & set(variables), key=list(build.names).index):
-            if any(v is None for v in elements(local[word])):
-                raise self.wrong(f"the algorithm does not assign '{word}' in every case")
-            yield from self.pairs(variables[word], local[word])
-
-    def _is_of_part(self, statement: Statement) -> bool:
-        """Whether an assignment gives a variable of a part or connector its value, once, as an equation does."""
-        build: Any = self.frame.build
-        target = statement.left if isinstance(statement, EquationStatement) else None
-        if (
-            not isinstance(target, DottedName)
-            or len(target.words) == 1
-            or target.words[0] not in build.names
-        ):
-            return False
-        return not is_record(as_record(build.member(target.words[0])))
-
-    def kept(self, word: str, value: Any) -> Any:
-        """A large value of a discrete variable becomes a variable, so that what is made of it stays small."""
-
-        def one(variable: Any, v: Any) -> Any:
-            parts = sp.preorder_traversal(v) if isinstance(v, sp.Basic) else ()
-            if len(list(islice(parts, LARGE))) < LARGE or not _is_discrete(variable):
-                return v
-            kind = variable.declaration.kind
-            return self.named(
-                f"{variable.path}_{len(self.further) + 1}", Discrete(kind=kind), word, v
-            )
-
-        return each(one, self.assigned[word], value) if word in self.assigned else value
-
-    def named(self, name: str, declared: Variable, word: str, value: Any) -> Any:
-        """A further variable for a value, of the type of another one."""
+    def declared(self, name: str, declared: Variable, kind: str) -> Any:
+        """A further variable of the component."""
         build: Any = self.frame.build
         name = re.sub(r"\W+", "_", name)
         if name not in vars(build.component):
             setattr(build.component, name, declared)
-            build.types[name] = build.types.get(word, "Real")
-        found = getattr(build.component, name)
+            build.types[name] = kind
+        return as_array(getattr(build.component, name))
+
+    def named(self, name: str, declared: Variable, word: str, value: Any) -> Any:
+        """A further variable for a value, of the type of another one."""
+        build: Any = self.frame.build
+        found = self.declared(name, declared, build.types.get(word, "Real"))
         self.further += self.pairs(found, value)
         return found
 
@@ -348,33 +283,10 @@ class SectionReader(Connecting):
             value = value.xreplace({one: variable})
         return Eq(target, value)
 
-    def _assigned(
-        self,
-        body: list[Statement],
-        local: dict[str, Any],
-        variables: dict[str, Any],
-        at_events: set[str],
-    ) -> list[Any]:
-        """What happens at an event of an algorithm."""
-        frame, jumps = self.frame, self.jumps
-        inner = {w: each(pre, variables[w]) if w in at_events else v for w, v in local.items()}
-        before = dict(inner)
-        self.frame, self.jumps = Frame(frame.node, frame.build, inner, frame.events), []
-        self.execute(body, inner)
-        changed = [w for w in inner if inner[w] is not before.get(w)]
-        found = [self._sampled(e) for w in changed for e in self.pairs(variables[w], inner[w])]
-        found += self.jumps
-        self.frame, self.jumps = frame, jumps
-        return found
 
-
-def _is_discrete(variable: Any) -> bool:
+def is_discrete(variable: Any) -> bool:
+    """Whether this is a variable that changes at events only."""
     return isinstance(variable, Reference) and isinstance(variable.declaration, Discrete)
-
-
-def _before(variable: Any) -> Any:
-    """The value of a variable when an algorithm begins."""
-    return pre(variable) if _is_discrete(variable) else None
 
 
 def _target(statement: Eq | Reinit) -> Any:
@@ -383,10 +295,6 @@ def _target(statement: Eq | Reinit) -> Any:
 
 def _value(statement: Eq | Reinit) -> Any:
     return statement.rhs if isinstance(statement, Eq) else statement.value
-
-
-def _is_when(statement: Statement) -> bool:
-    return isinstance(statement, Branches) and statement.word == "when"
 
 
 def collect(stated: Sequence[Statement], found: set[str], within: bool) -> None:

@@ -7,9 +7,12 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
+from acausal.modelica.algorithm_sections import AlgorithmReader
 from acausal.modelica.connecting import ends_of
 from acausal.modelica.modifications import Bound
-from acausal.modelica.sections import SectionReader, collect
+from acausal.modelica.sections import SectionReader, collect, is_discrete
 from acausal.modelica.values import (
     as_array,
     elements,
@@ -18,12 +21,10 @@ from acausal.modelica.values import (
 from acausal.modeling import (
     Component,
     Connector,
-    Discrete,
     Eq,
     Input,
     Output,
     Previous,
-    Reference,
     Start,
     When,
     references,
@@ -48,7 +49,7 @@ def _oriented(stated: list[Any], build: Any) -> Iterator[Any]:
     if not any(_gives_either(e) for e in stated):
         yield from stated
         return
-    given = Counter(e.lhs for e in stated if isinstance(e, Eq) and _is_discrete(e.lhs))
+    given = Counter(e.lhs for e in stated if isinstance(e, Eq) and is_discrete(e.lhs))
     given.update(
         e.lhs
         for when in stated
@@ -70,15 +71,16 @@ def _oriented(stated: list[Any], build: Any) -> Iterator[Any]:
 
 
 def _gives_either(one: Any) -> bool:
-    return isinstance(one, Eq) and _is_discrete(one.lhs) and _is_discrete(one.rhs)
-
-
-def _is_discrete(side: Any) -> bool:
-    return isinstance(side, Reference) and isinstance(side.declaration, Discrete)
+    return isinstance(one, Eq) and is_discrete(one.lhs) and is_discrete(one.rhs)
 
 
 def initial_equations(build: Any) -> Iterator[Any]:
-    """The initial equations and algorithms of a component, without those of `start`."""
+    """The initial equations and algorithms of a component, without those of `start`; starts that alone are fixed."""
+    for name, fixed in build.fixed.items():
+        given = as_array(build.component._node.modifiers[name].value)
+        starts = np.broadcast_to(np.array(0 if given is None else given, dtype=object), fixed.shape)
+        for place in zip(*np.nonzero(fixed), strict=True):
+            yield Eq(as_array(getattr(build.component, name))[place], starts[place])
     for one in _read(build, "initial_equations", "initial_algorithms"):
         if not (isinstance(one.lhs, Previous) and (_jumps(one.rhs) or one.rhs.is_number)):
             yield one
@@ -90,7 +92,7 @@ def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
         if kind == equations:
             yield from SectionReader(build.frame(node)).stated(stated)
         elif kind == algorithms:
-            yield from SectionReader(build.frame(node)).algorithm(stated)
+            yield from AlgorithmReader(build.frame(node)).algorithm(stated)
 
 
 def connect(build: Any) -> None:
@@ -144,7 +146,7 @@ def start(component: Component, stated: list[Eq], initial: list[Eq]) -> None:
 
 
 def _jumps(side: Any) -> bool:
-    return isinstance(side, Previous) or _is_discrete(side)
+    return isinstance(side, Previous) or is_discrete(side)
 
 
 def assigned_at_events(build: Any) -> frozenset[str]:

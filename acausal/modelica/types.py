@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, is_dataclass
 from typing import Any
 
 from acausal.errors import nearest
+from acausal.modelica.algorithms import REFUSED
 from acausal.modelica.classes import ClassNode
-from acausal.modelica.meanings import Native, Predefined, Prefix, Value
+from acausal.modelica.meanings import Native, Predefined, Prefix, Value, refused_package
 from acausal.modelica.modifications import Bound, Given, given_by
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Declared, Expression, ModificationArgument
@@ -71,15 +72,22 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
         raise frame.node.unknown(declared.type)
     match found:
         case Predefined():
-            if found.name not in ("Real", "Integer", "Boolean", "String"):
-                raise frame.node.wrong(declared.type.at, f"{found.name} is not supported")
+            if found.name == "Clock":
+                raise frame.node.wrong(
+                    declared.type.at, f"Clock is not supported; {REFUSED['Clock']}", 5
+                )
             return Type(predefined=found.name, attributes=found.attributes)
         case Native():
             return Type(native=found.cls, predefined=_signal_kind(found), full=found.name)
         case ClassNode():
+            reason = refused_package(found.full)
+            if reason and found.definition.kind in ("model", "block", "class"):
+                raise frame.node.wrong(declared.type.at, reason, len(declared.type.text))
             return type_of_class(found)
         case Value() if is_dataclass(found.value):
             return Type(predefined=declared.type.text, record=found.value)
+        case Prefix() if any(lib.is_enumeration(found.full) for lib in frame.node.tree.libraries):
+            return Type(predefined=declared.type.text)
         case Prefix():
             raise frame.node.unknown(declared.type)
         case _:

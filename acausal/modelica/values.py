@@ -49,6 +49,8 @@ class Bus(Record):
 
     Attributes:
         build, name: of the component that it belongs to, and its name there.
+        arrays: names of declared members that are arrays of expandable connectors, and these.
+        declared: names of other members that its class declares.
         links: buses that it is connected to, each with the build of the class that states it.
         ends: member -> what is connected to it, see `acausal.modelica.expandable.BusEnd`.
     """
@@ -56,12 +58,13 @@ class Bus(Record):
     def __init__(self, build: Any, name: str) -> None:
         super().__init__({})
         self.build, self.name = build, name
+        self.arrays, self.declared = dict[str, Any](), set[str]()
         self.links: list[tuple[Any, Bus]] = []
         self.ends: dict[str, list[Any]] = {}
 
     def field(self, word: str) -> Any:
         """The member of that name, which may not be there yet."""
-        return self.fields.get(word, BusMember(self, word))
+        return self.arrays.get(word) or self.fields.get(word, BusMember(self, word))
 
     def nested(self, word: str) -> Bus:
         """The member of that name, which is expandable, too."""
@@ -82,6 +85,17 @@ class BusMember(Record):
     def element(self, index: Sequence[int]) -> Any:
         """An element; each is a member of its own."""
         return self.bus.field(f"{self.name}[{','.join(map(str, index))}]")
+
+
+class FunctionValue:
+    """A function as the argument of another one.
+
+    Attributes:
+        node: its class. named: those of its arguments that are given already.
+    """
+
+    def __init__(self, node: Any, named: dict[str, Any]) -> None:
+        self.node, self.named = node, named
 
 
 def is_array(value: Any) -> bool:
@@ -210,10 +224,15 @@ def type_of(value: Any) -> str:
     if isinstance(value, Reference):
         component = getattr(value.owner, "component", None)
         build = None if component is None else component.__dict__.get("_build")
-        return "" if build is None else build.types.get(value.path.partition("[")[0], "")
+        return "" if build is None else build.types.get(without_index(value.path), "")
     if isinstance(value, sp.Expr) and (value.is_Add or value.is_Mul or value.is_Pow):
         return "Real"
     return "Integer" if isinstance(value, int) else "Real" if isinstance(value, float) else ""
+
+
+def without_index(path: str) -> str:
+    """The name of an array, of that of an element."""
+    return path.rpartition("[")[0] if path.endswith("]") else path
 
 
 def is_end(value: Any) -> bool:

@@ -71,6 +71,9 @@ def declare(
         start["start"] = each(lambda v: int(v) if isinstance(v, bool) else v, start["start"])
     if found.predefined != "Real" and not isinstance(declared, Discrete):
         start.pop("fixed", None)  # of its value before the start, which is that of its source
+    fixed = start.get("fixed")
+    if isinstance(fixed, np.ndarray) and not fixed.all():
+        build.fixed[name], start["fixed"] = fixed, False
     for key in ("fixed", "stateSelect"):
         if isinstance(start.get(key), np.ndarray):
             start[key] = _common(entry, key, start[key])

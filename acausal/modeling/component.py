@@ -149,7 +149,7 @@ class Component:
             elif isinstance(value, Mapping) and not hasattr(type(self), name):
                 node.early_modifiers[name] = cast(Mapping[str, Any], value)
             else:
-                known = [*self._declared, *node.children]
+                known = [*self._declared, *node.own_declarations, *node.children]
                 raise DeclarationError(f"{node.label} has no '{name}': {nearest(name, known)}")
 
     def is_given(self, name: str) -> bool:

@@ -164,12 +164,14 @@ def _chosen(comparison: Any) -> Any:
     pieces: Any = next((p for p in parts if isinstance(p, sp.Piecewise)), None)
     if pieces is None:
         return comparison
-    holds: Any = sp.false
-    still: Any = sp.true
+    holds: list[Any] = []
+    earlier: list[Any] = []
     for value, case in pieces.args:
-        holds |= still & case & _chosen(comparison.xreplace({pieces: value}))
-        still &= ~case
-    return holds
+        here = _chosen(comparison.xreplace({pieces: value}))
+        if here is not sp.false:
+            holds.append(sp.And(*earlier, case, here))
+        earlier.append(~case)
+    return sp.Or(*holds)
 
 
 def number_or_truth(value: Any) -> sp.Expr:

@@ -97,8 +97,11 @@ class Library:
                 return self.records[known]
         if name.endswith("()"):
             return getattr(self.module, "FUNCTIONS", {}).get(words[-1])
-        enumerations: tuple[str, ...] = getattr(self.module, "ENUMERATIONS", ())
-        return words[-1] if len(words) > 1 and words[-2] in enumerations else None
+        return words[-1] if len(words) > 1 and self.is_enumeration(words[-2]) else None
+
+    def is_enumeration(self, name: str) -> bool:
+        """Whether this is a type whose values are texts."""
+        return name.rpartition(".")[2] in getattr(self.module, "ENUMERATIONS", ())
 
     def constant_name(self, value: Any) -> str | None:
         """How a record is written, or None if this library does not know it."""

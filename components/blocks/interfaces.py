@@ -291,10 +291,11 @@ class NeedsDiscreteStates(ac.Component):
     __modelica__ = None
 
     needs = "discrete states"
+    instead = ""
 
     def __init__(self, **modifiers: Any) -> None:
         raise ac.DeclarationError(
-            f"{type(self).__name__} needs {self.needs}, which acausal does not have yet"
+            f"{type(self).__name__} needs {self.needs}, which acausal does not have yet{self.instead}"
         )
 
 

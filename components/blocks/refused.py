@@ -8,13 +8,13 @@ __modelica__ = "Modelica.Blocks.Nonlinear"
 class FixedDelay(NeedsDiscreteStates):
     """The input of a while ago; see `PadeDelay` for an approximation."""
 
-    needs = "the past of a signal"
+    needs, instead = "the past of a signal", "; PadeDelay is an approximation"
 
 
 class VariableDelay(NeedsDiscreteStates):
     """The input of a while ago, which may change."""
 
-    needs = "the past of a signal"
+    needs, instead = "the past of a signal", "; PadeDelay is an approximation"
 
 
 class RealFFT(NeedsDiscreteStates):

@@ -396,7 +396,178 @@ package Idioms "What public libraries write; each model has a known derivative"
     connect(c.y, given.v);
   end Voltages;
 
+  model Choosing "enumerations of the library, also by another name"
+    import Modelica.Blocks.Types.Init;
+    type Start = Modelica.Blocks.Types.Init;
+    parameter Init init = Init.InitialState;
+    parameter Start other = Start.SteadyState;
+    Real x(start = 1, fixed = true);
+  equation
+    der(x) = -(if init == Start.SteadyState then 1 else 2)*(if other == Init.SteadyState then 3 else 5);
+  end Choosing;
+
+  expandable connector CellBus
+    Real v;
+    Real T;
+  end CellBus;
+
+  expandable connector StackBus
+    parameter Integer n = 1;
+    CellBus cell[n];
+  end StackBus;
+
+  model Cell
+    parameter Real k;
+    CellBus bus;
+    Modelica.Blocks.Sources.Constant v(k = k);
+    Modelica.Blocks.Sources.Constant T(k = 100*k);
+    Modelica.Thermal.HeatTransfer.Components.HeatCapacitor heat(C = k, T(start = 1, fixed = true));
+  equation
+    connect(v.y, bus.v);
+    connect(T.y, bus.T);
+  end Cell;
+
+  model Watch "reads an array of buses as a whole, and members of one in an expression"
+    StackBus bus(n = 2);
+    Modelica.Blocks.Math.Gain gain[2](each k = 10);
+    Real x(start = 1, fixed = true);
+  equation
+    connect(bus.cell.v, gain.u);
+    der(x) = sum(gain.y) + sum(bus.cell.v) + bus.cell[2].T;
+  end Watch;
+
+  model Stack "arrays of buses; a matrix of ports for which a class of the library has a list"
+    Cell cell[2](k = {1, 2});
+    StackBus bus(n = 2);
+    Watch watch;
+    Modelica.Thermal.HeatTransfer.Components.ThermalCollectorMatrix all(Ns = 1, Np = 2);
+    Modelica.Thermal.HeatTransfer.Sources.FixedHeatFlow source(Q_flow = 6);
+    Modelica.Thermal.HeatTransfer.Interfaces.HeatPort_a port[1, 2];
+  equation
+    connect(cell.bus, bus.cell);
+    connect(bus, watch.bus);
+    connect(cell[1].heat.port, port[1, 1]);
+    connect(cell[2].heat.port, port[1, 2]);
+    connect(port, all.port_a);
+    connect(source.port, all.port_b);
+  end Stack;
+
+  partial function Function
+    input Real x;
+    output Real y;
+  end Function;
+
+  function monomial
+    extends Function;
+    input Real k = 1;
+    input Integer n = 2;
+  algorithm
+    y := k*x^n;
+  end monomial;
+
+  function trapezoid "a function that has a function as argument"
+    input Function f;
+    input Real a, b;
+    output Real s;
+  algorithm
+    s := (b - a)*(f(a) + f(b))/2;
+  end trapezoid;
+
+  function twice "passes it on"
+    input Function f;
+    output Real s = 2*trapezoid(function f(), 0, 3);
+  end twice;
+
+  operator record Vec
+    Real x;
+    Real y;
+    encapsulated operator function '*' "of a number and a record, without a constructor of numbers"
+      import Idioms.Vec;
+      input Real k;
+      input Vec a;
+      output Vec c;
+    algorithm
+      c := Vec(k*a.x, k*a.y);
+    end '*';
+  end Vec;
+
+  model Functions
+    Vec v(x(start = 1, fixed = true), y(start = 1, fixed = true));
+    Vec d = 2*v;
+    Real w[3] = skew({1, 2, 3})*{v.x, 1, 1} + outerProduct({1, 0, 0}, {5, 6, 7})*{1, 1, 0};
+  equation
+    der(v.x) = d.x + trapezoid(monomial, 1, 2) + twice(function monomial(k = 5, n = 1));
+    der(v.y) = w[1] + 10*Modelica.Math.Vectors.norm({3, 4});
+  end Functions;
+
+  model Starting "some elements are fixed, others not; an algorithm begins with starts"
+    Real x[2](start = {4, 2}, fixed = {true, false});
+    Real s(start = 10);
+  initial equation
+    der(x[2]) = 0;
+  algorithm
+    s := s + x[1];
+  equation
+    der(x) = {s, 3 - x[2]};
+  end Starting;
+
+  function inRange "only asserts"
+    input Real x;
+    input Real most = 10;
+  algorithm
+    assert(x < most, "x is too large");
+  end inRange;
+
+  model Buttons "a function as a statement; the size of an array of the library is that of its value"
+    parameter Real k = 3;
+    Modelica.Blocks.Sources.RadioButtonSource start(reset = {stop.on}, buttonTimeTable = {1, 3});
+    Modelica.Blocks.Sources.RadioButtonSource stop(reset = {start.on, late.on}, buttonTimeTable = {2});
+    Modelica.Blocks.Sources.RadioButtonSource late(reset = {false}, buttonTimeTable = {4});
+    Real x(start = 1, fixed = true);
+  initial equation
+    inRange(k);
+  equation
+    inRange(k, 4);
+    der(x) = -k*x;
+  end Buttons;
+
+  model Guarded "a division by zero in a branch that parameters rule out"
+    parameter Real least = 0;
+    constant Real none = 0;
+    Real x = if least > 0 then time/none else y;
+    Real y(start = 1, fixed = true);
+  equation
+    der(y) = -y;
+  end Guarded;
+
+  model Counting "an algorithm is one unit: later statements see what earlier ones have set at the same instant"
+    Integer n(start = 0, fixed = true), m(start = 0, fixed = true), both[2](each start = 0, each fixed = true);
+    Boolean late(start = false, fixed = true);
+  algorithm
+    late := time > 0.65;
+    when sample(0.1, 0.1) then
+      n := n + 1;
+      both[1] := n;
+    end when;
+    when sample(0.2, 0.2) then
+      m := n;
+      both[2] := if late then 10 else 20;
+    end when;
+    when n >= 4 then
+      n := 0;
+    elsewhen time > 0.55 then
+      n := 10*n;
+      late := true;
+    end when;
+  end Counting;
+
   model All
+    Buttons buttons;
+    Starting starting;
+    Functions functions;
+    Stack stack;
+    Guarded guarded;
+    Choosing choosing(init = Modelica.Blocks.Types.Init.SteadyState);
     Voltages voltages;
     Matrices matrices;
     Piping piping;

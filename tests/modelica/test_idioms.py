@@ -11,6 +11,16 @@ import acausal as ac
 
 FILE = Path(__file__).with_name("Idioms.mo")
 MOVES = {
+    "choosing.x": -1 * 3,
+    "buttons.x": -3,
+    "guarded.y": -1,
+    "starting.x[1]": 10 + 1,
+    "starting.x[2]": 3 - 1,
+    # 2*x + (1 + 2^2)/2 + 2*(3*(0 + 5*3)/2), and -3*1 + 2*1 + (5 + 6) + 10*5
+    "functions.v.x": 2 + 2.5 + 45,
+    "functions.v.y": -3 + 2 + 11 + 50,
+    "stack.watch.x": 10 * (1 + 2) + (1 + 2) + 200,
+    "stack.cell[1].heat.T": 6 / (1 + 2),
     # -load + turned + gain*2*turned
     "direct.machine.x[1]": -1 - 1 - 10 * 2,
     "rotating.machine.x[1]": -1 - 1 - 20 * 2,
@@ -91,6 +101,24 @@ def test_a_derivative_is_sampled(tmp_path: Path) -> None:
     run = ac.simulate(ac.compile(ac.load(file)), (0, 1), dt=0.05)
     assert run["rate"][-1] == pytest.approx(-3 * np.exp(-0.75), rel=1e-6)
     assert run["last"][-1] == pytest.approx(-np.exp(-0.5), rel=1e-4)
+
+
+@pytest.mark.slow
+def test_some_elements_of_an_array_are_fixed() -> None:
+    run = ac.simulate(ac.compile(ac.load(FILE, "Idioms.Starting")), (0, 0.1))
+    assert [run["x[1]"][0], run["x[2]"][0]] == pytest.approx([4, 3])
+
+
+@pytest.mark.slow
+def test_an_algorithm_is_one_unit() -> None:
+    run = ac.simulate(ac.compile(ac.load(FILE, "Idioms.Counting")), (0, 1), dt=0.05)
+    names = ("n", "m", "both[1]", "both[2]")
+    at = {name: [int(run[name][i]) for i in (3, 5, 7, 9, 13, 17)] for name in names}
+    # 10*n at 0.55 is 10, which the third 'when' sets back
+    assert at["n"] == [1, 2, 3, 0, 1, 3]
+    assert at["m"] == [0, 2, 2, 4, 1, 3]
+    assert at["both[1]"] == [1, 2, 3, 4, 1, 3]
+    assert at["both[2]"] == [0, 20, 20, 20, 20, 10]
 
 
 def test_files_lie_in_the_folder_of_their_package(tmp_path: Path) -> None:

@@ -101,6 +101,8 @@ def test_a_python_model_has_parts_of_the_text() -> None:
     system = ac.compile(Discharge())
     found = system.vector_field(0.0, np.array([3.0]), None, system.parameters())
     assert np.asarray(found) == pytest.approx([-1.5])
+    with pytest.raises(ac.ModelError, match="Resistor has no 'RR': did you mean 'R'"):
+        parts.Resistor(RR=4.0)
 
 
 def test_a_file_beside_that_has_other_classes_hides_no_constant(tmp_path: Path) -> None:

@@ -43,6 +43,11 @@ WRONG = {
     "model M parameter Real a=b; parameter Real b=a; end M;": "a -> b -> a: each depends on the next",
     "model M parameter Real m(min=0)=-1; end M;": "out of range: at least 0",
     "model M parameter Real k=1; equation assert(k>2,\"k is small\"); end M;": "violated: k is small",
+    "function f input Real a; output Real y; algorithm y:=a; for i in 1:25 loop y:=0.5*(y+a/y); end for; end f;"
+    "model M Real x=f(1+time); end M;": "'y' becomes an expression of more than 100000 parts; make fewer steps",
+    'function f input Real x; algorithm assert(x<2, "x is large"); end f;'
+    "model M parameter Real k=3; equation f(k); end M;": "violated: x is large",
+    "function f input Real x; algorithm end f; model M Real x=f(time); end M;": "f has no result",
     "model M Real x[3]={1,2}; end M;": r"sizes \[3\] and \[2\]",
     "model M parameter Real x[3]={1,2}; end M;": r"size \[3\], its value has \[2\]",
     "model M Real x[3]; equation x[4]=1; end M;": "subscript 4 is outside of 1 to 3",
@@ -73,14 +78,23 @@ WRONG = {
     "a Boolean in a connector is an input or output",
     "connector C Real p; flow Real f; end C; connector A C x; end A; connector B C x; C y; end B;"
     "model M A a; B b; equation connect(a,b); end M;": "unlike connectors: only one has 'y'",
-    "model M Clock c; end M;": "Clock is not supported",
+    "model M outer function f input Real x; output Real y; end f; Real x=f(time); end M;": "'f' is an outer class",
+    "model M Clock c; end M;": "Clock is not supported; write 'when sample",
+    "model M Real x; equation when Clock(0.1) then x=previous(x); end when; end M;": "not supported; write 'when",
+    "model M Modelica.Mechanics.MultiBody.Interfaces.Frame_a f; equation Connections.root(f.R); end M;":
+    "takes records of connectors; spatial mechanics",
+    "model M Modelica.Clocked.RealSignals.Sampler.Sample s; end M;": "clocks are not supported; use the blocks",
+    "model M Modelica.Mechanics.MultiBody.Joints.Revolute r; end M;": "Joints.Revolute: spatial mechanics is not",
+    "model M import Modelica.Mechanics.MultiBody.*; Joints.Revolute r; end M;": "spatial mechanics is",
+    "model M Modelica.Blocks.Nonlinear.FixedDelay d(delayTime=1); end M;": "past of a signal.*; PadeDelay is",
+    "model M Modelica.Blocks.Math.Gain a[2,3](each k=1); Modelica.Blocks.Math.Gain b[3,2](each k=1);"
+    "equation connect(a.y, b.u); end M;": "differ in length",
     "connector C Real p; flow Real f; stream Real h; end C; model M C c; end M;": "a stream variable",
     "expandable connector B end B; block G input Real u[2]; end G; model M B b; G g; G h;"
     "equation connect(b.x, g.u); connect(b.x[1], h.u[1]); end M;": "'b.x' is connected as a whole, too",
     f"expandable connector B end B; model M B b; {M}Mass m[2]; equation connect(b.x, m.flange_a); end M;":
     "'b.x' of an expandable connector has to be a signal or a connector",
     "expandable connector B end B; model M B b; Real y = b.x; end M;": "'b' has no 'x'",
-    "model M Real x; equation x=1; when x>1 then terminate(\"a\"); end when; end M;": "terminate",
     "record R Real x; end R; model M R a; R b; equation a=b+b; b.x=1; end M;": "'R' has no operator '\\+' for 2",
     "model M Real x; equation der(x)=1; Connections.root(x); end M;": "Connections.root takes records of connectors",
     'function f input Real x; output Real y; external "C" y=foo(x); end f; model M Real x=f(time); end M;':
@@ -108,6 +122,15 @@ def test_an_assertion_that_nothing_watches_is_named(tmp_path: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         file.write_text('model M parameter Real k=3; equation assert(k<5, "too large"); end M;')
+        ac.load(file)
+
+
+def test_an_end_that_the_text_states_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "ends.mo"
+    file.write_text(
+        'model M Real x=time; equation when x>1 then terminate("late"); end when; end M;'
+    )
+    with pytest.warns(UserWarning, match=r"line 1, column 45: this does not end the simulation"):
         ac.load(file)
 
 
