@@ -212,9 +212,13 @@ def test_a_relay_is_followed_from_the_start_for_ever_longer() -> None:
     assert problem.records.x is not None
     none = FitOptions()
     planned = _stages(problem, 101, 25, problem.params, problem.networks, False, None, none)
-    titles = ["first 25 samples", "first 50 samples", "whole record", "whole record, longer"]
-    assert [stage.title for stage in planned] == titles
-    *_, whole = segments(problem, planned, none)
+    titles = [*(f"first {n} samples" for n in (25, 35, 48, 68)), "whole record"]
+    assert [stage.title for stage in planned] == [*titles, "whole record, longer"]
+    first, *_, whole = segments(problem, planned, none)
+    counts = np.asarray(first.objective.records.weight) > 0  # of one program with the whole record
+    assert len(counts) == 101
+    assert counts[:25].all()
+    assert not counts[25:].any()
     assert whole.stage.gain == pytest.approx(2e-3)
     assert whole.epochs > 10 * whole.evaluate_every  # it goes on for as long as it gains something
 

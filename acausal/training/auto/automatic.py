@@ -54,6 +54,9 @@ FEW = 60
 WINDOWS = 100
 """Updates over windows."""
 
+GROWS, GROWS_AT_EVENTS = 2.0, 1.4
+"""So many times as long is the next beginning of records; less in models with events, where one too late stays so."""
+
 LONGER = 4
 """So many times the updates of `UPDATES` more over whole records, above the noise and while they gain something."""
 
@@ -299,7 +302,11 @@ def _stages(
         windows = [part._replace(rows=n, title=f"windows of {n} samples") for n in lengths]
     else:
         part = Stage("whole_record", WINDOWS, onward=True)
-        lengths = [n for k in range(rows.bit_length()) if (n := begun << k) < 0.7 * rows]
+        grows = GROWS if problem.system.events is None else GROWS_AT_EVENTS
+        count = int(
+            np.log(rows / begun) / np.log(grows) + 0.5
+        )  # the last one is about as far from all rows
+        lengths = [int(begun * grows**k) for k in range(max(count, 0))]
         windows = [part._replace(rows=n, title=f"first {n} samples") for n in lengths]
     if not explains:
         return (*windows, *ends)
