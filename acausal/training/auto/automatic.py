@@ -45,8 +45,8 @@ ALMOST = 0.2
 PIECE, PIECES = 25, 60
 """Samples of the pieces of records in which it is sought where it explains nothing; and how many pieces."""
 
-GOOD = 1.1
-"""A fit with a loss below this many times that of the noise needs no further stages."""
+CLOSE, GOOD = 1.05, 1.1
+"""A fit with a loss below this many times that of the noise is not trained longer, or not in any other way."""
 
 FEW = 60
 """Up to so many numbers are trained by Gauss-Newton."""
@@ -291,10 +291,10 @@ def _stages(
     kind = "gauss_newton" if few else "whole_record"
     usual = options.epochs is None
     epochs = UPDATES[kind] if usual else options.updates[0]
-    enough = 0.0 if noise is None else GOOD
+    close, enough = (0.0, 0.0) if noise is None else (CLOSE, GOOD)
     gain = min(GAIN, NATS / float(np.sum(np.asarray(problem.records.weight) > 0)))
     whole = Stage(kind, epochs, gain=gain, title="whole record")
-    more = whole._replace(epochs=LONGER * epochs, every=epochs // EVALUATIONS, above=enough)
+    more = whole._replace(epochs=LONGER * epochs, every=epochs // EVALUATIONS, above=close)
     ends = (whole, more._replace(title="whole record, longer")) if usual else (whole,)
     if _begins_anywhere(problem):
         lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]

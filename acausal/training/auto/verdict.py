@@ -76,8 +76,8 @@ class Verdict(NamedTuple):
     """Whether a fit is good, and why not.
 
     Attributes:
-        good: whether it explains the records down to their noise, or leaves less than one part in a hundred, and they
-            determine its laws.
+        good: whether it explains the records down to their noise and leaves nothing else, or less than one part in a
+            hundred in all, and they determine its laws.
         loss, noise: over the records, and what their noise alone leaves.
         sentences: what there is to say.
     """
@@ -118,7 +118,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"the noise is {100 * noise / level:.2g} %."
         )
     loose = list(_hardly_determined(fit)) if good else []
-    good = good and not loose
+    good = good and not loose and (share <= SMALL or not left)
     others = [*loose, *left]
     if (
         not (down or share <= SMALL)
@@ -133,6 +133,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"{100 * OFF * (sensitivity(*at) or 0.0):.2g} %, so no law follows the whole record. Judge its laws over "
             "shorter parts (data.between)."
         )
+    elif not steps and not np.isfinite(fit.step_error or 0.0):
+        others.append("In steps of half the length the model diverges: take a smaller dt.")
     elif not steps and fit.step_error is not None:
         others.append(
             f"Its steps err by {100 * fit.step_error / level:.2g} % of the targets: take a smaller dt."
