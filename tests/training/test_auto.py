@@ -227,6 +227,7 @@ def test_a_trained_law_is_where_the_next_training_begins() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:The trained model is no better than the targets' mean")
 def test_a_fit_that_is_not_good_says_so() -> None:
     """Nothing moves as the force that is said to push it."""
     t = np.linspace(0.0, 5.0, 251)
