@@ -103,7 +103,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
     down = fit.loss <= DOWN_TO * noise
     good = bool(np.isfinite(fit.loss) and (down or share <= SMALL))
-    left = list(_left(fit))
+    left = [] if fit.loss <= noise else list(_left(fit))
     if down:
         first = f"explains the record {'nearly ' * bool(left)}down to its noise."
     elif good:
