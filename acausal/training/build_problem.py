@@ -114,7 +114,7 @@ def build_problem(
         options.dt,
         solver,
         times,
-        differentiated=options.automatic,
+        smooth=options.automatic,
         even=even,
     )
     records = _with_guesses(system, records, params)

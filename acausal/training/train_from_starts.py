@@ -16,7 +16,7 @@ import numpy as np
 
 from acausal.errors import user_level
 from acausal.training.auto.step_choice import StepChoice, finer_steps
-from acausal.training.auto.verdict import step_error
+from acausal.training.auto.verdict import is_sensitive, step_error
 from acausal.training.concerns import concerns
 from acausal.training.member import Trained
 from acausal.training.objective.problem import Problem
@@ -63,7 +63,7 @@ def run(
         starts, trained = [starts[spread.best]], (trained[spread.best],)
     problems = [replace(own, mesh=None) for own in problems]
     errors = _step_errors(training, problems, trained)
-    if (step := _finer(training, trained, errors)) is not None:
+    if (step := _finer(training, problems, trained, errors)) is not None:
         finer = _in_steps(training, step)
         keys = [jax.random.key(seed) for seed in seeds]
         onward = [one.best.trainable for one in trained]
@@ -115,14 +115,23 @@ def _step_errors(
 
 
 def _finer(
-    training: Training, trained: Sequence[Trained], errors: Sequence[float | None]
+    training: Training,
+    problems: Sequence[Problem],
+    trained: Sequence[Trained],
+    errors: Sequence[float | None],
 ) -> StepChoice | None:
-    """Finer steps, if those that were chosen err by more than they may."""
+    """Finer steps, if those that were chosen err by more than they may, and the model is not too sensitive for any."""
     step = None if training.automatic is None else training.automatic.step
     if step is None or any(one.interrupted for one in trained):
         return None
     error, loss = max((e or 0.0, one.best.loss) for e, one in zip(errors, trained, strict=True))
-    return finer_steps(step, error, loss)
+    finer, bests = finer_steps(step, error, loss), [one.best for one in trained]
+    if finer is None or any(
+        is_sensitive(own, best.trainable, best.simulated)
+        for own, best in zip(problems, bests, strict=True)
+    ):
+        return None
+    return finer
 
 
 def _in_steps(training: Training, step: StepChoice) -> Training:

@@ -23,6 +23,7 @@ from acausal.networks import (
     with_scales,
 )
 from acausal.training.auto.step_choice import StepChoice, finer_steps
+from acausal.training.auto.verdict import is_sensitive
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
@@ -114,6 +115,62 @@ def test_windows_begin_at_rates_of_positions_where_speeds_are_not_measured() -> 
     assert np.std(found[:, system.states.index("mass.v")] - speed) < 0.1 * np.std(speed)
 
 
+def test_windows_begin_at_states_without_their_noise() -> None:
+    clean, v = np.asarray(data()["mass.v"]), "mass.v"
+    noisy = clean + 0.05 * clean.std() * np.random.default_rng(1).standard_normal(len(clean))
+    record = ac.Data(data().time, {"push.f": np.asarray(data()["push.f"]), v: noisy})
+    record = ac.Data(record.time, {**record.signals, "mass.s": np.asarray(data()["mass.s"])})
+    system = trained().system
+    problem = build_problem(system, {"run": record}, (v,), system.parameters(), FitOptions())
+    begins = np.asarray(problem.records.x)[:, system.states.index(v)]
+    assert np.std(begins - clean) < 0.6 * np.std(noisy - clean)
+    assert float(problem.records.y[3, 0]) == noisy[3]  # what is fitted stays as it is
+
+
+def test_a_law_that_the_record_hardly_determines_is_said_to_be() -> None:
+    fit = trained()
+    assert fit.verdict is not None
+    assert "hardly determines" not in str(fit.verdict)
+    blurred = replace(fit, records=fit.records)
+    band = fit.confidence().laws["damper.net"]
+    laws = {"damper.net": replace(band, sigma=0.1 * np.ptp(band.law) + 0 * band.sigma)}
+    blurred._confidences[None] = replace(fit.confidence(), laws=laws)
+    assert blurred.verdict is not None
+    assert not blurred.verdict.good
+    assert "hardly determines damper.net" in str(blurred.verdict)
+
+
+def test_a_sensitive_model_is_known_by_what_a_start_changes() -> None:
+    fit = trained()
+    simulated = fit.problem.simulate(fit.trained)
+    assert not is_sensitive(fit.problem, fit.trained, simulated)
+
+    class Falling(ac.Component):
+        """It leaves its balance as soon as it is not exact."""
+
+        k = ac.Parameter(1.0)
+
+        def __init__(self) -> None:
+            super().__init__()
+            self.push = ac.Input()
+            self.s, self.v = ac.Variable(start=0.0), ac.Variable(start=0.0)
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.s), self.v)
+            yield ac.Eq(ac.der(self.v), 9.0 * self.k * self.s + self.push)
+
+    t = np.linspace(0.0, 2.0, 101)
+    noise = 1e-3 * np.random.default_rng(0).standard_normal(len(t))
+    record = ac.Data(t, {"push": 0 * t, "s": np.sin(5 * t) + noise})
+    options = FitOptions(modifiers=("k",), solver="rk4")
+    system = ac.compile(Falling())
+    problem = build_problem(system, {"run": record}, ("s",), system.parameters(), options)
+    start = problem.start()
+    assert start.starts is not None
+    moved = replace(start, starts=start.starts + 1.0)
+    assert is_sensitive(problem, moved, problem.simulate(moved))
+
+
 def test_steps_that_err_are_refined_and_implicit_where_too_many_were_needed() -> None:
     chosen = StepChoice("rk4")
     assert finer_steps(chosen, error=9e-4, loss=0.01) is None
@@ -170,6 +227,7 @@ def test_a_trained_law_is_where_the_next_training_begins() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:The trained model is no better than the targets' mean")
 def test_a_fit_that_is_not_good_says_so() -> None:
     """Nothing moves as the force that is said to push it."""
     t = np.linspace(0.0, 5.0, 251)

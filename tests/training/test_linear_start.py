@@ -1,5 +1,6 @@
 """Linear laws in the place of networks, before the training of these."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from unittest.mock import ANY
@@ -37,6 +38,7 @@ from acausal.training.auto.linear_start import (
 from acausal.training.auto.step_choice import StepChoice, tried_steps
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
+from acausal.training.objective.start_prior import StartPrior
 from acausal.training.options import FitOptions
 from acausal.training.strategy import segments
 from benchmarks.by_default import Wired
@@ -134,15 +136,19 @@ def test_a_constant_that_nothing_determines_is_left_out() -> None:
     signals = {"source.v": VOLTS, "capacitor.v": x[::200, 0], "coil.i": x[::200, 1]}
     scales = {"beside.net": Scales((0.0,), (1.0,), 5e-3)}
 
-    def kept(*measured: str, i: float = 0.0) -> LinearStart:
+    def kept(*measured: str, i: float = 0.0, size: float = 1.0) -> LinearStart:
         names = ("source.v", "capacitor.v", *measured)
         learner = circuit(el.Inductor(L=0.1, i=ac.Start(i)))
-        start = start_of(problem_of(learner, "capacitor.v", **{n: signals[n] for n in names}))
+        problem = problem_of(learner, "capacitor.v", **{n: signals[n] for n in names})
+        if (prior := problem.start_prior) is not None:
+            problem = replace(problem, start_prior=StartPrior(size * prior.scale))
+        start = start_of(problem)
         return with_constants_at_zero(start, {"beside.net": linear_shape(Law()(0))}, scales)
 
     assert kept("coil.i").loose == ()
     unknown = kept()
     assert unknown.loose == ("beside.net",)
+    assert kept(size=1e-2).loose == unknown.loose  # before training, the current hardly moves
     assert kept(i=0.1).loose == ()  # it would have to start many times its range away
     law = unknown.laws["beside.net"]
     assert law.offset == 0.0
@@ -206,9 +212,13 @@ def test_a_relay_is_followed_from_the_start_for_ever_longer() -> None:
     assert problem.records.x is not None
     none = FitOptions()
     planned = _stages(problem, 101, 25, problem.params, problem.networks, False, None, none)
-    titles = ["first 25 samples", "first 50 samples", "whole record", "whole record, longer"]
-    assert [stage.title for stage in planned] == titles
-    *_, whole = segments(problem, planned, none)
+    titles = [*(f"first {n} samples" for n in (25, 35, 48, 68)), "whole record"]
+    assert [stage.title for stage in planned] == [*titles, "whole record, longer"]
+    first, *_, whole = segments(problem, planned, none)
+    counts = np.asarray(first.objective.records.weight) > 0  # of one program with the whole record
+    assert len(counts) == 101
+    assert counts[:25].all()
+    assert not counts[25:].any()
     assert whole.stage.gain == pytest.approx(2e-3)
     assert whole.epochs > 10 * whole.evaluate_every  # it goes on for as long as it gains something
 

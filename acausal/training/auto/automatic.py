@@ -45,14 +45,17 @@ ALMOST = 0.2
 PIECE, PIECES = 25, 60
 """Samples of the pieces of records in which it is sought where it explains nothing; and how many pieces."""
 
-GOOD = 1.1
-"""A fit with a loss below this many times that of the noise needs no further stages."""
+CLOSE, GOOD = 1.05, 1.1
+"""A fit with a loss below this many times that of the noise is not trained longer, or not in any other way."""
 
 FEW = 60
 """Up to so many numbers are trained by Gauss-Newton."""
 
 WINDOWS = 100
 """Updates over windows."""
+
+GROWS, GROWS_AT_EVENTS = 2.0, 1.4
+"""So many times as long is the next beginning of records; less in models with events, where one too late stays so."""
 
 LONGER = 4
 """So many times the updates of `UPDATES` more over whole records, above the noise and while they gain something."""
@@ -288,10 +291,10 @@ def _stages(
     kind = "gauss_newton" if few else "whole_record"
     usual = options.epochs is None
     epochs = UPDATES[kind] if usual else options.updates[0]
-    enough = 0.0 if noise is None else GOOD
+    close, enough = (0.0, 0.0) if noise is None else (CLOSE, GOOD)
     gain = min(GAIN, NATS / float(np.sum(np.asarray(problem.records.weight) > 0)))
     whole = Stage(kind, epochs, gain=gain, title="whole record")
-    more = whole._replace(epochs=LONGER * epochs, every=epochs // EVALUATIONS, above=enough)
+    more = whole._replace(epochs=LONGER * epochs, every=epochs // EVALUATIONS, above=close)
     ends = (whole, more._replace(title="whole record, longer")) if usual else (whole,)
     if _begins_anywhere(problem):
         lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]
@@ -299,7 +302,11 @@ def _stages(
         windows = [part._replace(rows=n, title=f"windows of {n} samples") for n in lengths]
     else:
         part = Stage("whole_record", WINDOWS, onward=True)
-        lengths = [n for k in range(rows.bit_length()) if (n := begun << k) < 0.7 * rows]
+        grows = GROWS if problem.system.events is None else GROWS_AT_EVENTS
+        count = int(
+            np.log(rows / begun) / np.log(grows) + 0.5
+        )  # the last one is about as far from all rows
+        lengths = [int(begun * grows**k) for k in range(max(count, 0))]
         windows = [part._replace(rows=n, title=f"first {n} samples") for n in lengths]
     if not explains:
         return (*windows, *ends)

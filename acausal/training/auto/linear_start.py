@@ -20,6 +20,7 @@ from jaxtyping import Array, Float
 from acausal._jax import compiled
 from acausal.networks import Affine, BesideLinear, BesideQuadratic, LawShape, Scales
 from acausal.training.objective.problem import Problem
+from acausal.training.objective.start_sizes import resized
 from acausal.training.objective.trainable import Trainable
 from acausal.training.objective.whole_record import over_whole_record
 from acausal.training.optimizers.gradients import with_gauss_newton_hessian
@@ -143,9 +144,14 @@ def with_constants_at_zero(
     Arguments:
         start: from `linear_start`. shapes: as there. scales: of the laws, by network.
     """
-    objective, held, loose = start.problem, list[int](), list[str]()
+    given, objective, held, loose = start, start.problem, list[int](), list[str]()
     places = _places(objective, shapes)
     rising, rest = _rising(places, shapes), [n for n in shapes if _has_constant(shapes[n])]
+    if rest and np.isfinite(start.loss):
+        objective, trainable = resized(objective, start.trainable)
+        point = np.array(ravel_pytree(trainable)[0])
+        point, loss, hessian = _gauss_newton(_Points(objective, len(point)), [point], rising)
+        start = replace(_linear(objective, shapes, point, loss, hessian), title=start.title)
     while rest and np.isfinite(start.loss):
         known = _covariance(start, held)
         sigma = {n: _deviation(known, places[n], shapes[n], scales[n]) for n in rest}
@@ -165,7 +171,7 @@ def with_constants_at_zero(
             loose.append(name)
             if shapes[name].every == 1:
                 held, start = trial, again
-    return replace(start, loose=tuple(n for n in shapes if n in loose))
+    return replace(start if held else given, loose=tuple(n for n in shapes if n in loose))
 
 
 def _has_constant(shape: LawShape) -> bool:
@@ -188,8 +194,13 @@ def _covariance(start: LinearStart, held: Sequence[int]) -> np.ndarray:
 
 
 def _nats(start: LinearStart) -> float:
-    """How unlikely is what is found, by what is known without data."""
-    return _samples(start.problem) * float(start.problem.log_prior(start.trainable))
+    """How unlikely is what is found, by what is known without data, apart from starts that are measured."""
+    problem, moves = start.problem, start.trainable.starts
+    nats = _samples(problem) * float(problem.log_prior(start.trainable))
+    if moves is None:
+        return nats
+    measured = np.isfinite(np.asarray(problem.first_states.given))
+    return nats - 0.5 * float(np.sum(np.asarray(moves)[measured] ** 2))
 
 
 def _samples(problem: Problem) -> int:

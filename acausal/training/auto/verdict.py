@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import jax
@@ -10,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.errors import listing
+from acausal.errors import TrainingError, listing
 from acausal.networks import OffsetCorrected
 from acausal.simulation import EXPLICIT
 from acausal.training.auto.step_choice import allowed_error, difference
@@ -31,6 +32,13 @@ LIKELY, FAR = 0.9, np.log(5)
 AT_ONCE = 16
 """Parameters whose effects are computed at once."""
 
+OFF, SENSITIVE = 1e-3, 20.0
+"""Starts are moved by this part of the states' deviations; a model is sensitive if so many times as much changes."""
+
+LOOSE, MOST_SEEN = 0.1, (0.01, 0.99)
+"""A law is hardly determined if two of its standard deviations are more than this part of its range in half of what its
+argument was seen at, rare values apart."""
+
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
 
@@ -43,11 +51,33 @@ def step_error(problem: Problem, trainable: Trainable, simulated: Simulated) -> 
     return difference(problem, np.asarray(simulated.y), np.asarray(fine.y))
 
 
+def sensitivity(problem: Problem, trainable: Trainable, simulated: Simulated) -> float | None:
+    """How much starts that are off by a thousandth of each state's deviation change the predictions, by as much.
+
+    As the loss counts it; ``None`` where starts are not found by the training. Of a model that forgets its start it is
+    one at most, of a chaotic one very large: neither steps nor laws can be known well enough to follow a whole record.
+    """
+    prior, starts = problem.start_prior, trainable.starts
+    if prior is None or starts is None:
+        return None
+    off = OFF * jnp.std(simulated.x, axis=0)
+    moves = jnp.where(prior.scale > 0, off / jnp.where(prior.scale > 0, prior.scale, 1.0), 0.0)
+    moved = problem.simulate(replace(trainable, starts=starts + moves))
+    change = difference(problem, np.asarray(simulated.y), np.asarray(moved.y))
+    return change / OFF / float(np.sqrt(len(problem.targets)))
+
+
+def is_sensitive(problem: Problem, trainable: Trainable, simulated: Simulated) -> bool:
+    """Whether `sensitivity` is so large that no steps and no law follow a whole record."""
+    return (sensitivity(problem, trainable, simulated) or 0.0) > SENSITIVE
+
+
 class Verdict(NamedTuple):
     """Whether a fit is good, and why not.
 
     Attributes:
-        good: whether it explains the records down to their noise, or leaves less than one part in a hundred.
+        good: whether it explains the records down to their noise and leaves nothing else, or less than one part in a
+            hundred in all, and they determine its laws.
         loss, noise: over the records, and what their noise alone leaves.
         sentences: what there is to say.
     """
@@ -67,14 +97,15 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     problem = fit.problem
     if problem.loss is not LOSSES["nrmse"]:
         return None
-    predicted = problem.simulate(fit.trained).y
-    noise, level = noise_loss(problem.records, predicted), np.sqrt(len(problem.targets))
+    at = problem, fit.trained, problem.simulate(fit.trained)
+    noise, level = noise_loss(problem.records, at[2].y), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
     down = fit.loss <= DOWN_TO * noise
     good = bool(np.isfinite(fit.loss) and (down or share <= SMALL))
+    left = [] if fit.loss <= noise else list(_left(fit))
     if down:
-        first = "explains the record down to its noise."
+        first = f"explains the record {'nearly ' * bool(left)}down to its noise."
     elif good:
         first = f"explains all but {100 * share:.2g} % of the targets; the noise is {100 * noise / level:.2g} %."
     elif not np.isfinite(fit.loss):
@@ -86,10 +117,25 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"does not explain the record: it leaves {100 * share:.2g} % of the targets, "
             f"the noise is {100 * noise / level:.2g} %."
         )
-    others = [] if down else list(_left(fit))
-    if not good and np.isfinite(fit.loss) and steps and (sentence := _parameters(fit)):
+    loose = list(_hardly_determined(fit)) if good else []
+    good = good and not loose and (share <= SMALL or not left)
+    others = [*loose, *left]
+    if (
+        not (down or share <= SMALL)
+        and np.isfinite(fit.loss)
+        and steps
+        and (sentence := _parameters(fit))
+    ):
         others.append(sentence)
-    if not steps and fit.step_error is not None:
+    if not good and np.isfinite(fit.loss) and is_sensitive(*at):
+        others.append(
+            f"The model is sensitive: starts that are off by {100 * OFF:.2g} % change the targets by "
+            f"{100 * OFF * (sensitivity(*at) or 0.0):.2g} %, so no law follows the whole record. Judge its laws over "
+            "shorter parts (data.between)."
+        )
+    elif not steps and not np.isfinite(fit.step_error or 0.0):
+        others.append("In steps of half the length the model diverges: take a smaller dt.")
+    elif not steps and fit.step_error is not None:
         others.append(
             f"Its steps err by {100 * fit.step_error / level:.2g} % of the targets: take a smaller dt."
         )
@@ -102,6 +148,26 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"{names}: a module of your own, trained from where it was, with your scales."
         )
     return Verdict(good, fit.loss, noise, (first, *others, *_ranges(fit)))
+
+
+def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
+    """Laws that could be quite different, for all that the records say."""
+    if fit.settings.get("strategy") != "auto":
+        return
+    try:
+        laws = fit.confidence().laws
+    except TrainingError:  # derivatives that are not finite, as at events
+        return
+    for name, band in laws.items():
+        low, high = np.quantile(fit.arguments[name][:, 0], MOST_SEEN)
+        seen = (band.x >= low) & (band.x <= high)
+        size = np.ptp(band.law[seen]) if seen.any() else 0.0
+        doubt = float(2 * np.median(band.sigma[seen]) / size) if size > 0 else 0.0
+        if doubt > LOOSE:
+            yield (
+                f"The record hardly determines {name}: it is known to {100 * doubt:.2g} % of its range only "
+                "(two standard deviations). Measure more, or where it matters more."
+            )
 
 
 def _left(fit: TrainedModel) -> Iterator[str]:

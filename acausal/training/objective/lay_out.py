@@ -25,7 +25,7 @@ from acausal.simulation import (
 )
 from acausal.training.objective.input_delays import delayed_inputs, end_to_end
 from acausal.training.objective.records import Records
-from acausal.training.objective.smoothing import rate
+from acausal.training.objective.smoothing import rate, without_noise
 from acausal.training.objective.timing import Timing
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def lay_out(
     *,
     states: bool = True,
     measured: bool = True,
-    differentiated: bool = False,
+    smooth: bool = False,
     even: float | None,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
@@ -72,7 +72,8 @@ def lay_out(
         solver: of the steps; ``timing``: the delays of inputs.
         states: whether measured states are laid out, too.
         measured: whether the data need samples of every target.
-        differentiated: whether a speed that no record has is the rate of a position.
+        smooth: whether measured states are without the noise that can be told from them, and a speed that no record has
+            is the rate of a position.
         even: the sample time that all have in common, as of `sample_time`.
 
     Raises:
@@ -82,10 +83,10 @@ def lay_out(
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
     present = {n for d in data.values() for n in d.signals}
-    rates = _rates(system) if differentiated else {}
+    rates = _rates(system) if smooth else {}
     lacking = {n: of for n, of in rates.items() if n not in present}
     rows = [
-        _rows(system, d, g, targets, states, measured, lacking)
+        _rows(system, d, g, targets, states, measured, lacking, smooth)
         for d, g in zip(data.values(), grids, strict=True)
     ]
     counts = np.array([len(g.t) for g in grids])
@@ -150,6 +151,7 @@ def _rows(
     states: bool,
     measured: bool,
     rates: Mapping[str, tuple[str, int]],
+    smooth: bool,
 ) -> _RecordRows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
         rows = np.full((len(grid.t), columns.shape[1]), np.nan)
@@ -166,7 +168,8 @@ def _rows(
         if name in rates:
             position, sign = rates[name]
             return sign * rate(data.time, data.signals.get(position, nothing))
-        return data.signals.get(name, nothing)
+        signal = data.signals.get(name, nothing)
+        return without_noise(data.time, signal) if smooth else signal
 
     x = [state(n) for n in names] or [nothing]
     if measured:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Bool
 
 from acausal.errors import listing
 from acausal.training.objective.problem import Problem
@@ -36,19 +37,36 @@ def with_sizes(problem: Problem, trainable: Trainable | None = None) -> Problem:
     follows its records somehow; its nominal value where it does not move.
     """
     prior = problem.start_prior
-    if prior is None or not np.isnan(np.asarray(prior.scale)).any():
+    if prior is None or not (unknown := np.isnan(np.asarray(prior.scale))).any():
         return problem
-    known = replace(
-        problem, start_prior=StartPrior(jnp.where(jnp.isnan(prior.scale), 1.0, prior.scale))
-    )
-    at = known.start() if trainable is None else trainable
-    simulated, records = known.simulate(at), problem.records
+    known = replace(problem, start_prior=StartPrior(jnp.where(unknown, 1.0, prior.scale)))
+    return _sized(known, known.start() if trainable is None else trainable, unknown)
+
+
+def resized(problem: Problem, trainable: Trainable) -> tuple[Problem, Trainable]:
+    """The same problem with the sizes of states, at starts that are found and not measured, where it has come to."""
+    prior, moves = problem.start_prior, trainable.starts
+    if prior is None or moves is None:
+        return problem, trainable
+    unknown = np.isnan(np.asarray(problem.first_states.given)) & (np.asarray(prior.scale) > 0)
+    if not unknown.any():
+        return problem, trainable
+    sized = _sized(problem, trainable, unknown)
+    assert sized.start_prior is not None
+    shrunk = jnp.where(unknown, prior.scale / sized.start_prior.scale, 1.0)
+    return sized, replace(trainable, starts=moves * shrunk)
+
+
+def _sized(problem: Problem, trainable: Trainable, unknown: Bool[np.ndarray, "R n"]) -> Problem:
+    """The same problem with sizes from a simulation, in the place of those that are unknown."""
+    assert problem.start_prior is not None
+    simulated, records = problem.simulate(trainable), problem.records
     x, y = np.asarray(simulated.x), np.asarray(simulated.y)
     with np.errstate(all="ignore"):
         far = np.abs(y - np.asarray(records.y)) > FOLLOWS * np.asarray(records.sigma)
         off = (far & (np.asarray(records.weight) > 0)) | ~np.isfinite(y)
         lost = np.atleast_1d(off.any(axis=1))
-    scale = np.array(prior.scale)
+    scale = np.array(problem.start_prior.scale)
     for k in range(records.count):
         rows = np.arange(len(x))[records.rows_of(k)]
         end = rows[0] + 1 + int(np.argmax(np.append(lost[rows], True)))
@@ -56,5 +74,5 @@ def with_sizes(problem: Problem, trainable: Trainable | None = None) -> Problem:
         passed = passed[np.isfinite(passed).all(axis=1)]
         half = np.ptp(passed, axis=0) / 2 if len(passed) else np.zeros(len(scale[k]))
         size = np.where(half > 0, half, problem.system.nominal)
-        scale[k] = np.where(np.isnan(scale[k]), size, scale[k])
+        scale[k] = np.where(unknown[k], size, scale[k])
     return replace(problem, start_prior=StartPrior(jnp.asarray(scale)))

@@ -24,8 +24,17 @@ def over_whole_record(problem: Problem) -> Problem:
 
 
 def over_beginnings(problem: Problem, rows: int) -> Problem:
-    """The same problem with the first rows of every record as one sequence."""
-    return over_whole_record(replace(problem, records=problem.records.beginnings(rows)))
+    """The same problem with the first rows of every record as one sequence.
+
+    In a model with events only these rows count, and the others are simulated with them: its program takes long to
+    compile, and so it is that of whole records.
+    """
+    records = problem.records
+    if problem.system.events is None:
+        return over_whole_record(replace(problem, records=records.beginnings(rows)))
+    since = np.arange(len(records)) - np.asarray(records.first)[np.asarray(records.of)]
+    weight = records.weight * array(since < rows, float)[:, None]
+    return over_whole_record(replace(problem, records=replace(records, weight=weight)))
 
 
 def over_windows(problem: Problem, rows: int) -> Problem:

@@ -207,7 +207,7 @@ def confidence(
     params = problem.assemble(trainable)
     names, laws = problem.modifiers.names, problem.networks
     bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
-    heights = [np.full(BUMPS, output_scale(params[n])) for n in laws]
+    heights = [np.full(BUMPS, _size(params[n], bumped[n], seen[n])) for n in laws]
     prior, own = _prior(problem, params), _own_deviations(problem, trainable)
     ways = [law_directions(params[n], seen[n]) if names else (0, None) for n in laws]
     deviations = np.concatenate([*heights, prior])
@@ -287,6 +287,15 @@ def confidence(
             problem, params, bumped, seen, found.root / deviations, float(n @ alike / n.sum())
         ),
     )
+
+
+def _size(
+    network: Network, bumped: Bumped, seen: Float[np.ndarray, "n_calls n_arguments"]
+) -> float:
+    """How much a law may change, as far as nothing else is known: by its scale, or half of its range."""
+    within = np.clip(bumped.centres, seen[:, 0].min(), seen[:, 0].max())
+    law = np.asarray(law_at(network, within, seen[:, 1:].mean(axis=0)))
+    return max(output_scale(network), float(np.ptp(law)) / 2)
 
 
 def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> dict[str, float]:
