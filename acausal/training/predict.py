@@ -16,6 +16,7 @@ from acausal._jax import compiled, is_number, levenberg_marquardt, value_and_jac
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, listing, nearest, shown
 from acausal.jobs import Workers, blocks, need_workers, on_workers
+from acausal.training.conformal import Conformal
 from acausal.training.objective.held_out import over
 from acausal.training.objective.initial_state import InitialState, by_record, check_records
 from acausal.training.objective.problem import Problem
@@ -27,7 +28,6 @@ from acausal.training.record_fit import RecordFit, of_records
 from acausal.training.trained_model import TrainedModel, out_of_range
 from acausal.training.uncertainty.bumps import Bumped, bumped_law, with_changes
 from acausal.training.uncertainty.confidence import Band, Confidence
-from acausal.training.uncertainty.conformal import Conformal
 
 UPDATES = 50
 """At most so many steps find what a record has for itself."""

@@ -18,6 +18,7 @@ from acausal.networks import remove_offset
 from acausal.pages import write_page
 from acausal.reporting import PageContent, PlainTable
 from acausal.training.auto.verdict import Verdict, verdict
+from acausal.training.conformal import Conformal, conformal
 from acausal.training.member import Trained
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
@@ -33,7 +34,6 @@ from acausal.training.starts import Starts
 from acausal.training.strategy import StageResult
 from acausal.training.trained_model import Seen, TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
-from acausal.training.uncertainty.conformal import Conformal, conformal
 
 if TYPE_CHECKING:
     from pandas import DataFrame
