@@ -68,7 +68,6 @@ Params = Mapping[str, Any] | Packed
 LOGGER = logging.getLogger(__name__)
 
 
-@collection_paused()
 def compile(  # noqa: A001 (the field's word; reached as ac.compile)
     model: Component,
     *,
@@ -106,11 +105,12 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
     events = need_flag(events, "compile: events", ModelError)
     need_double_precision()
     began = time.perf_counter()
-    flat = with_inputs(flatten(model, budget, watch=events), inputs)
-    _warn_of_silent(flat)
-    if check_units:
-        check_dimensions(flat)
-    found = _derived(model, flat)
+    with collection_paused():
+        flat = with_inputs(flatten(model, budget, watch=events), inputs)
+        _warn_of_silent(flat)
+        if check_units:
+            check_dimensions(flat)
+        found = _derived(model, flat)
     size = f"{flat.n_equations} equations, {len(found.reduced.states)} states"
     LOGGER.info("compiled %s in %.3g s: %s", flat.name, time.perf_counter() - began, size)
     return found

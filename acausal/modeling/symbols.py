@@ -20,7 +20,7 @@ from acausal.errors import DeclarationError, shown
 from acausal.modeling.declarations import Declaration, element_names
 
 HALF = sp.Rational(1, 2)
-NUMBERS = (bool, int, float, np.number)
+COMPARED_WITH = (bool, int, float, np.number, sp.Expr)
 WITHIN = ("acausal", "numpy", "sympy")
 
 time = sp.Symbol("time", real=True)
@@ -49,7 +49,7 @@ class Owner(Protocol):
 
 
 class Compared(sp.Symbol):
-    """A symbol that a model compares with numbers by ``==`` and ``!=``, where sympy would compare identities.
+    """A symbol that a model compares by ``==`` and ``!=``, where sympy would compare identities.
 
     Only what is written outside of sympy, NumPy and this package is read so; they need the identity.
     """
@@ -59,23 +59,27 @@ class Compared(sp.Symbol):
         return False
 
     def __eq__(self, other: object) -> Any:
-        if not isinstance(other, NUMBERS) or _is_within():
+        if other is self or not isinstance(other, COMPARED_WITH) or _is_within():
             return super().__eq__(other)
         return self._equals(other)
 
     def __ne__(self, other: object) -> Any:
-        if not isinstance(other, NUMBERS) or _is_within():
+        if other is self or not isinstance(other, COMPARED_WITH) or _is_within():
             return super().__ne__(other)
         return ~self._equals(other)
 
-    def _equals(self, number: Any) -> Any:
-        if not self._is_whole():
+    def _equals(self, other: Any) -> Any:
+        is_whole = (
+            other._is_whole() if isinstance(other, Compared) else not isinstance(other, sp.Expr)
+        )
+        if not (self._is_whole() and is_whole):
             raise DeclarationError(
-                f"{self} == {number}: an equation is ac.Eq(left, right), and in a condition a real number, which "
-                "has a value at instants only, is compared by <, <=, > or >=."
+                f"{self} == {other}: an equation is ac.Eq(left, right), and in a condition a real number, which "
+                "has a value at instants only, is compared by <, <=, > or >=. Whole numbers are variables of "
+                "kind='int' or 'bool'; give one to an expression."
             )
-        value = float(number)
-        return sp.Lt(sp.Abs(self - (int(value) if value.is_integer() else value)), HALF)
+        value = other if isinstance(other, sp.Expr) else number_or_expression(other, "a comparison")
+        return sp.Lt(sp.Abs(self - value), HALF)
 
     __hash__ = sp.Symbol.__hash__
 

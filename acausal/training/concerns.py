@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence, Set
 import jax
 import numpy as np
 
+from acausal._jax import compiled
 from acausal.analysis import in_switches
 from acausal.codegen import Values
 from acausal.errors import listing
@@ -74,7 +75,7 @@ def _no_better_than_the_mean(problem: Problem, best: Best) -> str | None:
     """A sentence on a model that follows its records no better than a constant does, or None."""
     records = problem.records
     level = np.sqrt(len(problem.targets))
-    error = float(jax.jit(nrmse)(best.simulated.y, records.y, records.sigma, records.weight))
+    error = float(compiled(nrmse)(best.simulated.y, records.y, records.sigma, records.weight))
     if error < level:
         return None
     return (

@@ -1,4 +1,4 @@
-"""Comparisons of variables with numbers by ``==`` and ``!=``, and what Python cannot decide."""
+"""Comparisons of variables by ``==`` and ``!=``, and what Python cannot decide."""
 
 from collections.abc import Callable
 from typing import Any
@@ -35,6 +35,8 @@ class Counted(ac.Component):
         (lambda m: m.n != np.int32(1), 6.0),
         (lambda m: (m.n == 1) | (m.n == 2), 5.0),
         (lambda m: m.seen == False, 6.0),  # noqa: E712
+        (lambda m: m.n == m.seen, 7.0),
+        (lambda m: m.n != m.seen, 5.0),
     ],
 )
 def test_a_whole_number_equals_another(holds: Callable[[Any], Any], end: float) -> None:
@@ -51,7 +53,8 @@ def test_a_whole_number_equals_another(holds: Callable[[Any], Any], end: float) 
             "x == 1: an equation is ac.Eq.left, right., and in a condition a real number",
         ),
         (lambda m: 2 * m.n == 2, r"the condition of where\(...\) is False already"),
-        (lambda m: m.x == m.n, r"the condition of where\(...\) is False already"),
+        (lambda m: m.x == m.n, "x == n: an equation is ac.Eq.left, right."),
+        (lambda m: m.n == m.seen + 1, "Whole numbers are variables of kind='int' or 'bool'"),
         (lambda m: not m.n, "Python asks whether n is true, but its value is not known yet"),
         (lambda m: m.n and m.x, "use &, | and ~ in place of and, or and not"),
         (lambda m: m.n in (1, 2), "cannot determine truth value"),
