@@ -53,8 +53,8 @@ def test_a_copied_model_is_one_of_its_own(again):
     model = Bound()
     other = again(model)
     assert other.mass is not model.mass
-    assert other.mass.m != model.mass.m
-    assert other.mass.m == other.mass.m
+    assert other.mass.m is not model.mass.m
+    assert other.mass.m is other.mass.m
     assert other.mass.m.owner is other.mass._node
     assert other.mass.m.declaration is model.mass.m.declaration
     other.modify(ratio=3.0)

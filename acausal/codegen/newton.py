@@ -23,6 +23,8 @@ Tolerance = dict[str, float]
 TOLERANCE: Tolerance = {"float64": 1e-10, "float32": 1e-5}
 STALLED: Tolerance = {"float64": 1e-6, "float32": 1e-3}
 """Relative size of the last step, and of a step that is accepted although roundoff stalls descent."""
+SHRINKS = 0.9
+"""A step so small that is not this much shorter than the one before goes along a stair of rounded residuals."""
 FIRST, SHORTEST = 0.1, 1e-7
 """Of the path: the first stride, and the shortest one before the search gives up."""
 STRIDES, CORRECTIONS = 400, 12
@@ -100,8 +102,8 @@ class Matrix:
         return self.solve(jnp.concatenate([above, row[None]]), jnp.append(r, 0.0))
 
 
-_State = tuple[Array, Array, Array]
-"""Of Newton's method: the point, the status, the number of steps."""
+_State = tuple[Array, Array, Array, Array]
+"""Of Newton's method: the point, the status, the number of steps, the length of the last one."""
 
 
 class _PathSearch(NamedTuple):
@@ -197,7 +199,7 @@ def _newton(
     """
 
     def advance(state: _State) -> _State:
-        z, _, k = state
+        z, _, k, before = state
         r, reach, step = linearized(z)
         full = jnp.where(jnp.all(r == 0), 0.0, step)
         weight = 1 / jnp.where(reach > 0, reach, 1.0)
@@ -214,16 +216,19 @@ def _newton(
 
         dz, _ = jax.lax.while_loop(too_far, halve, (2 * full, jnp.inf * jnp.ones_like(size)))
         there, stopped = _is_tiny(full, z), _is_tiny(dz, z)
-        arrived = there | (stopped & _is_tiny(full, z, STALLED))
+        length = _norm(full)
+        stalls = stopped | (length > SHRINKS * before)
+        arrived = there | (stalls & _is_tiny(full, z, STALLED))
         stuck = stopped | ~jnp.all(jnp.isfinite(full))
         status = jnp.where(arrived, ARRIVED, jnp.where(stuck, STUCK, GOING))
-        return z - jnp.where(there, full, dz), status, k + 1
+        return z - jnp.where(there, full, dz), status, k + 1, length
 
     def unfinished(state: _State) -> Array:
-        _, status, k = state
+        _, status, k, _ = state
         return (status == GOING) & (k < max_steps)
 
-    z, status, _ = jax.lax.while_loop(unfinished, advance, (guess, jnp.array(GOING), jnp.array(0)))
+    begin = guess, jnp.array(GOING), jnp.array(0), jnp.full((), jnp.inf, guess.dtype)
+    z, status, _, _ = jax.lax.while_loop(unfinished, advance, begin)
     return z, status == ARRIVED
 
 

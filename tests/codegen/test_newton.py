@@ -1,5 +1,7 @@
 """Roots that Newton's method alone does not find."""
 
+import itertools
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -47,6 +49,21 @@ def test_a_root_behind_a_minimum(residual, guess, found):
 def test_no_root_is_told():
     _, arrived = root(lambda z: z**2 + 1, jnp.array([0.7]))
     assert not bool(arrived)
+
+
+def test_a_small_unknown_beside_a_large_number():
+    """Between two rounded values of their sum a slope of 1e-5 is left: 300 steps along it led nowhere."""
+    evaluated = itertools.count()
+
+    def residual(z):
+        next(evaluated)
+        return 1e-5 * z + 100 * (60.0 + 3e-13 + z - 60.0)
+
+    with jax.disable_jit():
+        z, arrived = root(residual, jnp.array([1e-3]))
+    assert bool(arrived)
+    assert next(evaluated) < 30
+    np.testing.assert_allclose(z, -3e-13, atol=2e-14)
 
 
 def test_units_do_not_matter():
