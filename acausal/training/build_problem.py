@@ -114,7 +114,7 @@ def build_problem(
         options.dt,
         solver,
         times,
-        smooth=options.automatic,
+        differentiated=options.automatic,
         even=even,
     )
     records = _with_guesses(system, records, params)

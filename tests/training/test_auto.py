@@ -115,18 +115,6 @@ def test_windows_begin_at_rates_of_positions_where_speeds_are_not_measured() -> 
     assert np.std(found[:, system.states.index("mass.v")] - speed) < 0.1 * np.std(speed)
 
 
-def test_windows_begin_at_states_without_their_noise() -> None:
-    clean, v = np.asarray(data()["mass.v"]), "mass.v"
-    noisy = clean + 0.05 * clean.std() * np.random.default_rng(1).standard_normal(len(clean))
-    record = ac.Data(data().time, {"push.f": np.asarray(data()["push.f"]), v: noisy})
-    record = ac.Data(record.time, {**record.signals, "mass.s": np.asarray(data()["mass.s"])})
-    system = trained().system
-    problem = build_problem(system, {"run": record}, (v,), system.parameters(), FitOptions())
-    begins = np.asarray(problem.records.x)[:, system.states.index(v)]
-    assert np.std(begins - clean) < 0.6 * np.std(noisy - clean)
-    assert float(problem.records.y[3, 0]) == noisy[3]  # what is fitted stays as it is
-
-
 def test_a_law_that_the_record_hardly_determines_is_said_to_be() -> None:
     fit = trained()
     assert fit.verdict is not None

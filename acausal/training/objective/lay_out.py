@@ -25,7 +25,7 @@ from acausal.simulation import (
 )
 from acausal.training.objective.input_delays import delayed_inputs, end_to_end
 from acausal.training.objective.records import Records
-from acausal.training.objective.smoothing import rate, without_noise
+from acausal.training.objective.smoothing import rate
 from acausal.training.objective.timing import Timing
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def lay_out(
     *,
     states: bool = True,
     measured: bool = True,
-    smooth: bool = False,
+    differentiated: bool = False,
     even: float | None,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
@@ -72,8 +72,7 @@ def lay_out(
         solver: of the steps; ``timing``: the delays of inputs.
         states: whether measured states are laid out, too.
         measured: whether the data need samples of every target.
-        smooth: whether measured states are without the noise that can be told from them, and a speed that no record has
-            is the rate of a position.
+        differentiated: whether a speed that no record has is the rate of a position.
         even: the sample time that all have in common, as of `sample_time`.
 
     Raises:
@@ -83,10 +82,10 @@ def lay_out(
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
     present = {n for d in data.values() for n in d.signals}
-    rates = _rates(system) if smooth else {}
+    rates = _rates(system) if differentiated else {}
     lacking = {n: of for n, of in rates.items() if n not in present}
     rows = [
-        _rows(system, d, g, targets, states, measured, lacking, smooth)
+        _rows(system, d, g, targets, states, measured, lacking)
         for d, g in zip(data.values(), grids, strict=True)
     ]
     counts = np.array([len(g.t) for g in grids])
@@ -151,7 +150,6 @@ def _rows(
     states: bool,
     measured: bool,
     rates: Mapping[str, tuple[str, int]],
-    smooth: bool,
 ) -> _RecordRows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
         rows = np.full((len(grid.t), columns.shape[1]), np.nan)
@@ -168,8 +166,7 @@ def _rows(
         if name in rates:
             position, sign = rates[name]
             return sign * rate(data.time, data.signals.get(position, nothing))
-        signal = data.signals.get(name, nothing)
-        return without_noise(data.time, signal) if smooth else signal
+        return data.signals.get(name, nothing)
 
     x = [state(n) for n in names] or [nothing]
     if measured:
