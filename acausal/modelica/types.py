@@ -72,9 +72,10 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
         raise frame.node.unknown(declared.type)
     match found:
         case Predefined():
-            if found.name == "Clock":
+            if found.name in ("Clock", "ExternalObject"):
+                hint = f"; {REFUSED[found.name]}" if found.name in REFUSED else ""
                 raise frame.node.wrong(
-                    declared.type.at, f"Clock is not supported; {REFUSED['Clock']}", 5
+                    declared.type.at, f"{found.name} is not supported{hint}", len(found.name)
                 )
             return Type(predefined=found.name, attributes=found.attributes)
         case Native():

@@ -80,6 +80,7 @@ WRONG = {
     "model M A a; B b; equation connect(a,b); end M;": "unlike connectors: only one has 'y'",
     "model M outer function f input Real x; output Real y; end f; Real x=f(time); end M;": "'f' is an outer class",
     "model M Clock c; end M;": "Clock is not supported; write 'when sample",
+    "model M ExternalObject e; end M;": "ExternalObject is not supported",
     "model M Real x; equation when Clock(0.1) then x=previous(x); end when; end M;": "not supported; write 'when",
     "model M Modelica.Mechanics.MultiBody.Interfaces.Frame_a f; equation Connections.root(f.R); end M;":
     "takes records of connectors; spatial mechanics",

@@ -303,9 +303,8 @@ def _stages(
     else:
         part = Stage("whole_record", WINDOWS, onward=True)
         grows = GROWS if problem.system.events is None else GROWS_AT_EVENTS
-        count = int(
-            np.log(rows / begun) / np.log(grows) + 0.5
-        )  # the last one is about as far from all rows
+        # the last one is about as far from all rows
+        count = int(np.log(rows / begun) / np.log(grows) + 0.5)
         lengths = [int(begun * grows**k) for k in range(max(count, 0))]
         windows = [part._replace(rows=n, title=f"first {n} samples") for n in lengths]
     if not explains:

@@ -51,15 +51,15 @@ def step_error(problem: Problem, trainable: Trainable, simulated: Simulated) -> 
     return difference(problem, np.asarray(simulated.y), np.asarray(fine.y))
 
 
-def sensitivity(problem: Problem, trainable: Trainable, simulated: Simulated) -> float | None:
+def sensitivity(problem: Problem, trainable: Trainable, simulated: Simulated) -> float:
     """How much starts that are off by a thousandth of each state's deviation change the predictions, by as much.
 
-    As the loss counts it; ``None`` where starts are not found by the training. Of a model that forgets its start it is
+    As the loss counts it; zero where starts are not found by the training. Of a model that forgets its start it is
     one at most, of a chaotic one very large: neither steps nor laws can be known well enough to follow a whole record.
     """
     prior, starts = problem.start_prior, trainable.starts
     if prior is None or starts is None:
-        return None
+        return 0.0
     off = OFF * jnp.std(simulated.x, axis=0)
     moves = jnp.where(prior.scale > 0, off / jnp.where(prior.scale > 0, prior.scale, 1.0), 0.0)
     moved = problem.simulate(replace(trainable, starts=starts + moves))
@@ -69,7 +69,7 @@ def sensitivity(problem: Problem, trainable: Trainable, simulated: Simulated) ->
 
 def is_sensitive(problem: Problem, trainable: Trainable, simulated: Simulated) -> bool:
     """Whether `sensitivity` is so large that no steps and no law follow a whole record."""
-    return (sensitivity(problem, trainable, simulated) or 0.0) > SENSITIVE
+    return sensitivity(problem, trainable, simulated) > SENSITIVE
 
 
 class Verdict(NamedTuple):
@@ -97,8 +97,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     problem = fit.problem
     if problem.loss is not LOSSES["nrmse"]:
         return None
-    at = problem, fit.trained, problem.simulate(fit.trained)
-    noise, level = noise_loss(problem.records, at[2].y), np.sqrt(len(problem.targets))
+    simulated = problem.simulate(fit.trained)
+    noise, level = noise_loss(problem.records, simulated.y), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
     down = fit.loss <= DOWN_TO * noise
@@ -127,10 +127,11 @@ def verdict(fit: TrainedModel) -> Verdict | None:
         and (sentence := _parameters(fit))
     ):
         others.append(sentence)
-    if not good and np.isfinite(fit.loss) and is_sensitive(*at):
+    bad = not good and np.isfinite(fit.loss)
+    if bad and (times := sensitivity(problem, fit.trained, simulated)) > SENSITIVE:
         others.append(
             f"The model is sensitive: starts that are off by {100 * OFF:.2g} % change the targets by "
-            f"{100 * OFF * (sensitivity(*at) or 0.0):.2g} %, so no law follows the whole record. Judge its laws over "
+            f"{100 * OFF * times:.2g} %, so no law follows the whole record. Judge its laws over "
             "shorter parts (data.between)."
         )
     elif not steps and not np.isfinite(fit.step_error or 0.0):
