@@ -52,6 +52,8 @@ def run(name: str, arguments: list[str], folder: Path) -> list[dict[str, list]]:
             "XLA_FLAGS": f"{QUICK if quick else ''} {flags}".strip(),
             # Assertions that say what they compare are compiled for themselves.
             "PYTHONPYCACHEPREFIX": str(folder / "compiled"),
+            # Programs are the same for all records: the first variation with its flags compiles them for the next.
+            "ACAUSAL_COMPILATION_CACHE": str(folder / "programs"),
         }
         print(f"== {name}: {' '.join(files)}", flush=True)
         code = subprocess.run(command, cwd=ROOT, env=environment, check=False).returncode
