@@ -13,7 +13,7 @@ from acausal.simulation.steps.over_rows import (
     Adaptive as Adaptive,
     integrate_in_steps as integrate_in_steps,
 )
-from acausal.simulation.steps.simulate_in_steps import simulate_in_steps as simulate_in_steps
+from acausal.simulation.steps.simulate_in_steps import InSteps as InSteps
 from acausal.simulation.steps.tolerances import (
     Tolerance as Tolerance,
     check_tolerances as check_tolerances,
