@@ -149,32 +149,29 @@ def simulate(
     steps = "adaptive steps" if ends is None else f"{len(ends) - 1} steps"
     LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
     forward = isinstance(adjoint, dfx.ForwardMode)
-
-    def in_steps() -> InSteps:
-        times = saved
-        if times is None:
-            times = np.linspace(start, end, POINTS) if ends is None else ends
-        chosen = None
-        if called != "auto":
-            with_events = system.events is not None
-            chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
-        return InSteps(times, chosen, rtol, atol, max_steps, kind, ends, forward, longest)
-
+    chosen = None
+    if called != "auto":
+        with_events = system.events is not None
+        chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
+    times = saved
+    if times is None:
+        times = np.linspace(start, end, POINTS) if ends is None else ends
+    in_steps = InSteps(times, chosen, rtol, atol, max_steps, kind, ends, forward, longest)
     # with events, what finds the start takes as long to compile as a third of the steps: both at the same time
     if system.events is not None and not traced(packed, x0, u_start) and system not in _SIMULATED:
         _SIMULATED.add(system)
         at = system.blank(packed, start, u_start)._replace(t=start)
-        in_steps().begin_to_compile(Run(system, at, functions, end))
+        in_steps.begin_to_compile(Run(system, at, functions, end))
     values = system.start_values(packed, None if steady else x0, u_start, start, steady=steady)
     run = Run(system, values, functions, end)
     run.check_start()
     if ends is not None and system.events is None and not are_split(run, ends, adjoint):
-        scheme = solvers.solver_named("tsit5" if called == "auto" else solver, fixed=True)
+        scheme = solvers.solver_named("tsit5", fixed=True) if chosen is None else chosen
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
         solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
         _warn_of_another_solution(solution)
         return solution
-    solution = in_steps().simulate(run)
+    solution = in_steps.simulate(run)
     if saveat is None and ends is None:
         _warn_of_few_points(solution, end - start)
     _warn_of_another_solution(solution)
