@@ -2,11 +2,12 @@ from .at_import import configure_with_jax as configure_with_jax
 from .compilation_cache import use_compilation_cache as use_compilation_cache
 from .damped_steps import (
     Damped as Damped,
+    Descent as Descent,
+    DescentMethod as DescentMethod,
     after_trial as after_trial,
     before_trials as before_trials,
     levenberg_marquardt as levenberg_marquardt,
 )
-from .descent import Descent as Descent, DescentMethod as DescentMethod
 from .differentiation import two_modes as two_modes
 from .dtypes import (
     cast as cast,

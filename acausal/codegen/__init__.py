@@ -4,7 +4,6 @@ In: a `ReducedModel`. Out: a `Program` and the layout of its parameters.
 It knows nothing of initial values, time integration or data.
 """
 
-from acausal.codegen.description import described as described
 from acausal.codegen.equation_formula import formula_of as formula_of
 from acausal.codegen.equations import explicit_equations as explicit_equations
 from acausal.codegen.field import Field as Field
@@ -54,6 +53,7 @@ from acausal.codegen.program import (
     STATES as STATES,
     ZERO as ZERO,
     Program as Program,
+    described as described,
 )
 from acausal.codegen.reading import (
     Arrays as Arrays,

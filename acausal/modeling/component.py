@@ -18,11 +18,10 @@ from acausal.modeling.documentation import (
     check_positional,
 )
 from acausal.modeling.endpoints import Endpoint, check_lengths, check_pair, is_vector
-from acausal.modeling.icon import Icon
+from acausal.modeling.icon import Icon, Shape
 from acausal.modeling.modifiers import record_modifier
 from acausal.modeling.node import Node
 from acausal.modeling.replacing import replace_part
-from acausal.modeling.shape import Shape
 from acausal.modeling.summary import summary
 from acausal.modeling.symbols import Eq
 

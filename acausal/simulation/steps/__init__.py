@@ -13,8 +13,8 @@ from acausal.simulation.steps.over_rows import (
     Adaptive as Adaptive,
     integrate_in_steps as integrate_in_steps,
 )
-from acausal.simulation.steps.simulate_in_steps import simulate_in_steps as simulate_in_steps
-from acausal.simulation.steps.tolerances import (
+from acausal.simulation.steps.simulate_in_steps import (
     Tolerance as Tolerance,
     check_tolerances as check_tolerances,
+    simulate_in_steps as simulate_in_steps,
 )
