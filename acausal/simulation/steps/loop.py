@@ -334,12 +334,11 @@ def _begun_again(
         field, there, apart = sides
         change = field(t - apart, there) - field(t + apart, there)
         x = x + jnp.where(row.kind == EDGE, moved, 0.0) * lax.stop_gradient(change)
-    if problem.field.has_edges:  # what follows an edge is seen from its other side
-        problem = problem.sided(landing.t, jnp.full_like(landing.t, jnp.inf))
     if problem.first is not None:
         x = jnp.where(row.kind == RESTART, restarted(problem, row.which)[0], x)
-    memory, cost = method.begin(problem, landing.t, x)
-    return landing._replace(x=x, memory=method.resumed(memory, landing.memory), cost=cost)
+    landing = landing._replace(x=x)
+    memory, cost = between_events.begun_again(method, problem, landing)
+    return landing._replace(memory=memory, cost=cost)
 
 
 def _save(
