@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any, TypeVar
 
@@ -41,24 +41,22 @@ def two_modes(
 
     def derivative(primals: tuple[PyTree], tangents: tuple[PyTree]) -> tuple[Result, Any]:
         values, tree = jax.tree.flatten(primals[0])
-        directions = jax.tree.leaves(tangents[0], is_leaf=_is_zero)
-        moved = [not _is_zero(d) for d in directions]
+        directions = jax.tree.leaves(tangents[0], is_leaf=is_zero)
+        moved = [not is_zero(d) for d in directions]
 
         def of(function: Callable[[PyTree], Result], values: Sequence[Array]) -> Any:
             """The function of the arguments that move, and these."""
 
             def of_moved(some: list[Array]) -> tuple[list[Array], Result]:
-                own = iter(some)
-                filled = [next(own) if m else v for v, m in zip(values, moved, strict=True)]
-                result = function(jax.tree.unflatten(tree, filled))
+                result = function(jax.tree.unflatten(tree, merged(values, moved, some)))
                 return jax.tree.leaves(eqx.filter(result, eqx.is_inexact_array)), result
 
-            return of_moved, [v for v, m in zip(values, moved, strict=True) if m]
+            return of_moved, picked(values, moved)
 
         found, pull, result = jax.vjp(*of(reverse, values), has_aux=True)
         arrays, fixed = eqx.partition((values, pull), eqx.is_array)
         saved = _differentiated_once(arrays)
-        given = [d for d, m in zip(directions, moved, strict=True) if m]
+        given = picked(directions, moved)
 
         def push(saved: PyTree, directions: list[Array]) -> list[Array]:
             values, _ = eqx.combine(saved, fixed)
@@ -82,8 +80,26 @@ def two_modes(
     return call
 
 
-def _is_zero(tangent: object) -> bool:
+def is_zero(tangent: object) -> bool:
+    """Whether JAX knows a derivative to be zero."""
     return isinstance(tangent, SymbolicZero)
+
+
+def picked(values: Sequence[Array], chosen: Sequence[bool]) -> list[Array]:
+    """Those of some values that are chosen."""
+    return [v for v, is_chosen in zip(values, chosen, strict=True) if is_chosen]
+
+
+def scattered(chosen: Sequence[bool], values: Iterable[Array]) -> list[Array | None]:
+    """Values in the chosen places, ``None`` in the others."""
+    own = iter(values)
+    return [next(own) if is_chosen else None for is_chosen in chosen]
+
+
+def merged(values: Sequence[Array], chosen: Sequence[bool], new: Iterable[Array]) -> list[Array]:
+    """The values, with new ones in the chosen places."""
+    pairs = zip(values, scattered(chosen, new), strict=True)
+    return [v if own is None else own for v, own in pairs]
 
 
 def _linear(push: Linear, pull: Linear, given: list[Array], like: list[Array]) -> list[Array]:
