@@ -14,11 +14,11 @@ Rule = Callable[[Body, Equation, Sequence[BlockTerm]], Sequence[BlockTerm]]
 
 TEXTS: dict[str, str] = {
     "abs": "abs({0})", "acos": "acos({0})", "add": "({0} + {1})", "add_any": "({0} + {1})", "asin": "asin({0})",
-    "atan": "atan({0})", "atan2": "atan2({0}, {1})", "convert_element_type": "{0}", "copy": "{0}", "cos": "cos({0})",
+    "atan": "atan({0})", "atan2": "atan2({0}, {1})", "convert_element_type": "{0}", "cos": "cos({0})",
     "cosh": "cosh({0})", "div": "({0}/{1})", "exp": "exp({0})", "expm1": "(exp({0}) - 1)", "log": "log({0})",
     "log1p": "log(1 + {0})", "logistic": "(1/(1 + exp(-{0})))", "max": "max({0}, {1})", "min": "min({0}, {1})",
     "mul": "({0}*{1})", "neg": "(-{0})", "pow": "({0}^{1})", "rsqrt": "(1/sqrt({0}))", "sin": "sin({0})",
-    "sinh": "sinh({0})", "sqrt": "sqrt({0})", "square": "({0}^2)", "stop_gradient": "{0}", "sub": "({0} - {1})",
+    "sinh": "sinh({0})", "sqrt": "sqrt({0})", "square": "({0}^2)", "sub": "({0} - {1})",
     "tan": "tan({0})", "tanh": "tanh({0})", "clamp": "min(max({1}, {0}), {2})",
     "sign": "noEvent(if {0} > 0 then 1 else if {0} < 0 then -1 else 0)",
 }  # fmt: skip
