@@ -8,7 +8,7 @@ from .damped_steps import (
     before_trials as before_trials,
     levenberg_marquardt as levenberg_marquardt,
 )
-from .differentiation import two_modes as two_modes
+from .differentiation import two_modes as two_modes, value_and_jacobian as value_and_jacobian
 from .dtypes import (
     cast as cast,
     check_time as check_time,
@@ -23,7 +23,6 @@ from .host_calls import (
     call_host as call_host,
     register_host as register_host,
 )
-from .jacobian import value_and_jacobian as value_and_jacobian
 from .keys import as_key as as_key
 from .primitives import (
     BARRIER as BARRIER,

@@ -1,4 +1,4 @@
-"""Functions that have one implementation for derivatives in reverse mode, and another for those in forward mode."""
+"""Derivatives: Jacobians, and functions with one implementation for reverse mode and another for forward mode."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 from jax.custom_derivatives import SymbolicZero
-from jaxtyping import PyTree
+from jaxtyping import Float, PyTree
 
 from acausal._jax.deferred import deferred
 from acausal.errors import DataError
@@ -139,3 +139,16 @@ def _refuse(primals: tuple[Tree], tangents: tuple[Tree]) -> tuple[Tree, Tree]:
         "Adaptive steps have no second derivatives: give dt for fixed steps, "
         "or adjoint=diffrax.ForwardMode() and take derivatives in forward mode only."
     )
+
+
+def value_and_jacobian(
+    function: Callable[[Float[Array, " P"]], Float[Array, " ..."]],
+    at: Float[Array, " P"],
+    axis: int,
+) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
+    """A function's value and Jacobian, in forward mode; ``axis`` of the Jacobian belongs to the arguments."""
+
+    def push(direction: Float[Array, " P"]) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
+        return jax.jvp(function, (at,), (direction,))
+
+    return jax.vmap(push, out_axes=(None, axis))(jnp.eye(len(at), dtype=at.dtype))

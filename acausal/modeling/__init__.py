@@ -69,6 +69,7 @@ from acausal.modeling.functions import (
     COMPUTABLE as COMPUTABLE,
     Abs as Abs,
     Atan2 as Atan2,
+    Floored as Floored,
     Prescribed as Prescribed,
     acos as acos,
     asin as asin,
@@ -110,4 +111,3 @@ from acausal.modeling.symbols import (
     references as references,
     time as time,
 )
-from acausal.modeling.whole import Floored as Floored

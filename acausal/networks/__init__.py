@@ -9,7 +9,6 @@ It knows no model.
 """
 
 from acausal.networks.activations import ACTIVATIONS as ACTIVATIONS
-from acausal.networks.arity import check_inputs as check_inputs
 from acausal.networks.energy_parts import (
     BesideQuadratic as BesideQuadratic,
     Bowl as Bowl,
@@ -50,7 +49,7 @@ from acausal.networks.law_parts import (
     WithMinSlope as WithMinSlope,
 )
 from acausal.networks.law_spec import Law as Law
-from acausal.networks.mlp import MLP as MLP
+from acausal.networks.mlp import MLP as MLP, check_inputs as check_inputs
 from acausal.networks.monotone_and_convex import Convex as Convex, Monotone as Monotone
 from acausal.networks.promises import (
     bounds_of as bounds_of,
