@@ -29,7 +29,6 @@ from acausal.codegen.interpreter import (
 )
 from acausal.codegen.iteration_matrix import (
     DenseIterationMatrix as DenseIterationMatrix,
-    IterationMatrix as IterationMatrix,
     SparseIterationMatrix as SparseIterationMatrix,
 )
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
@@ -50,7 +49,6 @@ from acausal.codegen.parameters import (
 )
 from acausal.codegen.program import (
     DISCRETE as DISCRETE,
-    STATES as STATES,
     ZERO as ZERO,
     Program as Program,
     described as described,

@@ -18,7 +18,7 @@ from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as fla
 from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.leaves_caches import LeavesCaches as LeavesCaches
-from acausal.flattening.origin import Origin as Origin, Origins as Origins
+from acausal.flattening.origin import Origin as Origin
 from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,
