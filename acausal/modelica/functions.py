@@ -127,7 +127,8 @@ class Interpreter(Algorithms):
         """The result of a function that is an argument; itself where it is passed on."""
         if call.partial:
             return function
-        names = [n for n in _inputs(function.node) if n not in function.named]
+        inputs = function.node.view().of_causality("input")
+        names = [n for n in inputs if n not in function.named]
         if len(call.arguments) > len(names):
             raise self.wrong(f"'{call.function.text}' takes {len(names)} arguments here")
         given = dict(zip(names, call.arguments, strict=False)) | call.named
@@ -225,8 +226,7 @@ class Interpreter(Algorithms):
                     length,
                 )
             return [self._of_library(plain, external, given, {})]
-        inputs = _inputs(node)
-        outputs = [n for n, e in view.entries.items() if e.declared.prefixes.causality == "output"]
+        inputs, outputs = view.of_causality("input"), view.of_causality("output")
         if len(call.arguments) > len(inputs):
             raise self.wrong(
                 f"{definition.name} takes {len(inputs)} arguments, not {len(call.arguments)}",
@@ -274,20 +274,18 @@ class Interpreter(Algorithms):
         self, node: ClassNode, call: FunctionCall, values: dict[str, Any], arrays: list[str]
     ) -> list[Any]:
         """The results for arrays in the place of scalars: arrays, too (Modelica 3.6, section 12.4.6)."""
-        shapes = {np.shape(values[n]) for n in arrays}
-        if len(shapes) > 1:
-            sizes = " and ".join(str(list(s)) for s in sorted(shapes))
-            raise self.wrong(f"arrays of sizes {sizes} do not fit")
-        (shape,) = shapes
-        found: list[list[Any]] = []
-        for place in np.ndindex(*shape):
+
+        def one(*elements: Any) -> list[Any]:
+            given = {**values, **dict(zip(arrays, elements, strict=True))}
             named: dict[str, Expression] = {
-                n: LiteralConstant(v[place] if n in arrays else v, call.at)
-                for n, v in values.items()
+                n: LiteralConstant(v, call.at) for n, v in given.items()
             }
-            found.append(self.inlined(node, FunctionCall(call.function, [], named, call.at)))
+            return self.inlined(node, FunctionCall(call.function, [], named, call.at))
+
+        found = each(one, *(values[n] for n in arrays))
         return [
-            array_of(list(r)).reshape((*shape, *np.shape(r[0]))) for r in zip(*found, strict=True)
+            array_of(list(r)).reshape((*found.shape, *np.shape(r[0])))
+            for r in zip(*found.flat, strict=True)
         ]
 
     def empty(self, entry: Entry) -> Any:
@@ -303,12 +301,6 @@ class Interpreter(Algorithms):
             return None
         check_size(int(np.prod(shape)), "the array")
         return np.empty(shape, dtype=object)
-
-
-def _inputs(node: ClassNode) -> list[str]:
-    """The arguments of a function, in order."""
-    entries = node.view().entries.items()
-    return [n for n, e in entries if e.declared.prefixes.causality == "input"]
 
 
 def _dimensions(entry: Entry) -> float:

@@ -62,10 +62,7 @@ class Overloading(Evaluator):
             function = self._of_class(node, "'*'", given, {})
             if function is not None:
                 return self._called(function, given, {})
-        if left.shape[-1] != right.shape[0]:
-            raise self.wrong(
-                f"arrays of sizes {list(left.shape)} and {list(right.shape)} cannot be multiplied"
-            )
+        self.need_factors(left, right)
         rows = left.reshape(-1, left.shape[-1])
         columns = right.reshape(right.shape[0], -1).T
         found = [
@@ -94,11 +91,8 @@ class Overloading(Evaluator):
         inner = [e.name for e in found.definition.elements if isinstance(e, ClassDefinition)]
         members = [found] if found.definition.kind == "function" else map(found.own, inner)
         for function in members:
-            inputs = {
-                n: e.declared
-                for n, e in function.view().entries.items()
-                if e.declared.prefixes.causality == "input"
-            }
+            entries = function.view().entries
+            inputs = {n: entries[n].declared for n in function.view().of_causality("input")}
             needed = [d for d in list(inputs.values())[len(given) :] if d.modifier.value is None]
             fits = len(given) + len(named) <= len(inputs) and named.keys() <= inputs.keys()
             shapes = all(

@@ -34,6 +34,7 @@ from acausal.modeling.declarations import (
     Potential as Potential,
     Start as Start,
     Variable as Variable,
+    element_name as element_name,
     element_names as element_names,
 )
 from acausal.modeling.documentation import (

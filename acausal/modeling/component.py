@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 from acausal.errors import ConnectionError, DeclarationError, nearest
 from acausal.modeling.budget import charge
 from acausal.modeling.connector import Connector, check_name
-from acausal.modeling.declarations import Declaration
+from acausal.modeling.declarations import Declaration, element_name
 from acausal.modeling.documentation import (
     DocumentationOf,
     SignatureOf,
@@ -216,11 +216,11 @@ class Component:
     def _add_all(self, name: str, parts: Sequence[Any], *index: int) -> list[Any]:
         """Parts of a list, and of lists in it, named as Modelica does: ``parts[1]``, ``parts[2,1]``."""
         added: list[Any] = []
-        for i, part in enumerate(parts, start=1):
+        for i, part in enumerate(parts):
             if isinstance(part, list | tuple):
                 added.append(self._add_all(name, cast(Sequence[Any], part), *index, i))
             else:
-                added.append(self._add(f"{name}[{','.join(map(str, (*index, i)))}]", part))
+                added.append(self._add(element_name(name, (*index, i)), part))
         return added
 
     def _add(self, name: str, part: Component | Connector | Declaration) -> Any:
