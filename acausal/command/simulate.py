@@ -24,7 +24,6 @@ from acausal.command.output import CommandOutput, number
 from acausal.command.records import add_reading, read_record
 from acausal.errors import nearest
 from acausal.files import csv_text, need_path, write_files
-from acausal.modeling import names_matching
 
 if TYPE_CHECKING:
     import numpy as np
@@ -162,6 +161,8 @@ def _names(patterns: list[str] | None, system: ac.System) -> list[str]:
     """The variables that names or patterns stand for; an unknown one is refused before anything is computed."""
     if patterns is None:
         return [*system.states, *system.inputs]
+    from acausal.modeling import names_matching  # so that help imports no sympy
+
     known = tuple(dict.fromkeys((*system.variables, *system.inputs)))
     names = names_matching(patterns, known)
     for name in names:
