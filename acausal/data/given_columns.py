@@ -15,7 +15,7 @@ from acausal._jax import need_known
 from acausal.data.readers import SignalTable, is_data_frame, need_unique, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.errors import DataError, listing, nearest, shown
-from acausal.modeling import names_in
+from acausal.modeling import by_name, names_in
 
 Missing = Literal["refuse", "nan"]
 """What a NaN among samples is: a mistake, or a missing sample."""
@@ -169,20 +169,16 @@ def _masks(given: object, measured: Mapping[str, GivenSignal]) -> Mapping[str, n
     Raises:
         DataError: for what is not an array of truth values of the signal's length.
     """
-    if given is None:
-        return {}
-    if not isinstance(given, Mapping):
-        raise DataError(f"mask={shown(given)} has no names; give {{'mass.s': samples_that_count}}.")
     masks: dict[str, np.ndarray] = {}
-    for name in names_in(given, "mask"):
+    for name, own in by_name(given, "mask", "{'mass.s': samples_that_count}").items():
         if name not in measured:
             raise DataError(
                 f"There is a mask for '{name}' but no such signal: {nearest(name, measured)}"
             )
-        mask, shape = _array(given[name]), np.shape(measured[name].samples)
+        mask, shape = _array(own), np.shape(measured[name].samples)
         if getattr(mask, "dtype", None) != np.dtype(bool):
             raise DataError(
-                f"mask: '{name}' has {shown(given[name])}; give True for a sample that counts, else False."
+                f"mask: '{name}' has {shown(own)}; give True for a sample that counts, else False."
             )
         if mask.shape != shape:
             raise DataError(f"mask: '{name}' has shape {mask.shape} for samples of {shape}.")

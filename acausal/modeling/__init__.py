@@ -96,6 +96,7 @@ from acausal.modeling.icon import Icon as Icon, Shape as Shape, Side as Side
 from acausal.modeling.names import (
     ByName as ByName,
     Name as Name,
+    by_name as by_name,
     names_in as names_in,
     names_matching as names_matching,
 )

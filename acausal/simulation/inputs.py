@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import array, compiled, is_real, traced
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
-from acausal.modeling import names_in
+from acausal.modeling import by_name
 from acausal.simulation.host_function import on_host
 
 if TYPE_CHECKING:
@@ -100,18 +100,12 @@ def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
     Raises:
         DataError: for what has no names.
     """
-    if given is None:
-        return {}
     if isinstance(given, Data) or is_data_frame(given):
         record = Data.of(given)
         known = {form for name in system.inputs for form in _antiderivatives(name)}
         return record.select([n for n in record.signals if n in known]).for_system(system)
-    if not isinstance(given, Mapping):
-        first = system.inputs[0] if system.inputs else "name"
-        raise DataError(
-            f"inputs={_short(given)} has no names; give inputs={{'{first}': ...}}, with {FORMS} for each."
-        )
-    return {name: given[name] for name in names_in(given, "inputs")}
+    first = system.inputs[0] if system.inputs else "name"
+    return by_name(given, "inputs", f"inputs={{'{first}': ...}}, with {FORMS} for each")
 
 
 def functions_of_time(
