@@ -92,7 +92,7 @@ from acausal.modeling.functions import (
     tan as tan,
     tanh as tanh,
 )
-from acausal.modeling.icon import Icon as Icon, Shape as Shape, Side as Side
+from acausal.modeling.icon import Icon as Icon, Placement as Placement, Shape as Shape, Side as Side
 from acausal.modeling.names import (
     ByName as ByName,
     Name as Name,
@@ -100,7 +100,6 @@ from acausal.modeling.names import (
     names_in as names_in,
     names_matching as names_matching,
 )
-from acausal.modeling.placement import Placement as Placement
 from acausal.modeling.summary import value_text as value_text
 from acausal.modeling.symbols import (
     Eq as Eq,
