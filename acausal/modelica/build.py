@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, ClassVar, cast
 
+import numpy as np
+
 from acausal.errors import nearest
 from acausal.modelica import statements
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.connectors import connector
 from acausal.modelica.expandable import expand
-from acausal.modelica.form import note_form
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import make_part, modify_part
 from acausal.modelica.meanings import Native
@@ -32,7 +33,7 @@ from acausal.modelica.types import Type, is_component, type_of_declared
 from acausal.modelica.values import ABSENT, Record, as_array, of
 from acausal.modelica.variables import declare
 from acausal.modelica.views import Entry
-from acausal.modeling import Component, Reference, charge, element_name
+from acausal.modeling import Component, Connector, Reference, charge, element_name
 
 MAX_DEPTH = 60
 
@@ -403,3 +404,31 @@ class Build:
 def _is_composite(value: Any) -> bool:
     """Whether this is a connector of connectors, or a list of such."""
     return isinstance(value, Record) or (isinstance(value, list) and any(map(_is_composite, value)))
+
+
+def note_form(build: Any) -> None:
+    """Make all that decides the equations a constant, so that components with other equations have another form."""
+    constants = build.component._node.constants
+    for name, value in build.made.items():
+        constants[f"value of {name}"] = _plain(value)
+    constants["absent"] = tuple(sorted(build.absent))
+    constants["classes"] = tuple((n, str(id(c))) for n, c in build.classes.items())
+    constants["given inwards"] = tuple(str(id(a)) for a, _ in build.given_inwards)
+    constants["cut"] = tuple(edge.cut for edge in build.edges)
+    constants["decided"] = tuple(build.decided.items())
+    constants["bindings"] = tuple(
+        (name, str(id(bound.expression)), bound.index) for _, name, bound in build.bindings
+    )
+
+
+def _plain(value: Any) -> Any:
+    """A value as something that can be compared."""
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, Record):
+        return [(name, _plain(v)) for name, v in value.fields.items()]
+    if isinstance(value, list):
+        return [_plain(v) for v in value]
+    if isinstance(value, Connector | Reference):
+        return None
+    return value if isinstance(value, bool | int | float | str) else str(id(value))
