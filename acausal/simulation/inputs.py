@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import equinox as eqx
 import jax
@@ -317,20 +317,10 @@ def _evaluate_all(
     return jax.vmap(lambda t: evaluate(functions, t))(t)
 
 
-class Breaks(NamedTuple):
-    """Times within a run at which adaptive steps end.
-
-    Attributes:
-        ts: increasing, in seconds.
-        jumps: at which of them an input jumps; at the others the slope of one does.
-    """
-
-    ts: Float[np.ndarray, " n_breaks"]
-    jumps: Bool[np.ndarray, " n_breaks"]
-
-
-def breaks(functions: tuple[TimeFunction, ...], start: float, end: float) -> Breaks:
-    """Times between ``start`` and ``end`` at which an input is known to jump, or to have a kink.
+def breaks(
+    functions: tuple[TimeFunction, ...], start: float, end: float
+) -> tuple[Float[np.ndarray, " n_breaks"], Bool[np.ndarray, " n_breaks"]]:
+    """Times between ``start`` and ``end`` at which an input is known to jump, or to have a kink; and which jump.
 
     Of lines between more than `KINKS` samples, none: steps that end at each would take longer than those that an
     estimate of their error chooses.
@@ -341,7 +331,7 @@ def breaks(functions: tuple[TimeFunction, ...], start: float, end: float) -> Bre
     if len(bent) > KINKS:
         bent = bent[:0]
     ts = np.union1d(jumping, bent)
-    return Breaks(ts, np.isin(ts, jumping))
+    return ts, np.isin(ts, jumping)
 
 
 def _all_samples(signal: Signal) -> Float[np.ndarray, " n"]:
