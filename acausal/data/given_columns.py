@@ -202,7 +202,7 @@ def _check(name: str, samples: Any, ts: np.ndarray, place: Place, missing: Missi
         f"'{name}'",
         missing=missing == "nan",
         place=place,
-        mend="if such samples are missing, say missing='nan'",
+        remedy="if such samples are missing, say missing='nan'",
     )
 
 

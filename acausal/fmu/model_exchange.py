@@ -98,10 +98,10 @@ class Exchange(Instance):
 NEVER = 1e30
 """The time of an event that never comes [s]."""
 
-NUDGES = 40
+MOST_SHIFTS = 40
 """So often an event is shifted, twice as far each time, until the FMU sees the conditions change that have changed."""
 
-NUDGE = 1e-14
+FIRST_SHIFT = 1e-14
 """The first shift, relative to the time, at least of 1 s."""
 
 
@@ -173,23 +173,23 @@ class Evaluated(Computed):
         states, inputs = (np.frombuffer(b).copy() for b in (event.states, event.inputs))
         wanted = np.frombuffer(event.signs) > 0.5
         values = np.zeros(self.part.n_values)
-        shift, start, nudges, rates = NUDGE * max(1.0, abs(time)), time, 0, states
+        shift, start, shifts, rates = FIRST_SHIFT * max(1.0, abs(time)), time, 0, states
         instance.move(time, states.ctypes.data, inputs.ctypes.data)
-        while len(wanted) and nudges < NUDGES:
+        while len(wanted) and shifts < MOST_SHIFTS:
             instance.read(values.ctypes.data)
             if ((values[-len(wanted) :] > 0) == wanted).all():
                 break
-            rates = values[: len(states)].copy() if nudges == 0 else rates
+            rates = values[: len(states)].copy() if shifts == 0 else rates
             shifted = states + shift * rates
             instance.move(start + shift, shifted.ctypes.data, inputs.ctypes.data)
-            shift, nudges = 2 * shift, nudges + 1
+            shift, shifts = 2 * shift, shifts + 1
         else:
-            if nudges:
+            if shifts:
                 instance.move(time, states.ctypes.data, inputs.ctypes.data)
         found = instance.happen(time)
         if found.jumped:
             instance.states(states.ctypes.data)
-        return AfterEvent(0, min(found.next, NEVER), states.tobytes(), nudges)
+        return AfterEvent(0, min(found.next, NEVER), states.tobytes(), shifts)
 
     # -- functions ---------------------------------------------------------------------------------
 
@@ -232,7 +232,7 @@ class Evaluated(Computed):
             after = self._histories.after(self._values_of_parameters(at), event)
             number(into).value, number(into + BYTES).value = after.history, after.next
             C.memmove(into + 2 * BYTES, after.numbers, n * BYTES)
-            return after.nudges
+            return after.shifts
 
     def _fast_columns(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:
         """Rates and results by states and inputs, by the FMU's directional derivatives, where it has them."""

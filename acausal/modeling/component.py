@@ -186,12 +186,12 @@ class Component:
             object.__setattr__(self, name, self._add_all(name, value))
         else:
             if name not in self._node.constants:
-                self._claim(name, anew=hasattr(Component, name))
+                self._claim(name, is_new=hasattr(Component, name))
             self._node.constants[name] = value
             object.__setattr__(self, name, value)
 
-    def _claim(self, name: str, anew: bool = True) -> None:
-        """Make sure that a name is free; unless ``anew``, it may be that of a default of the class."""
+    def _claim(self, name: str, is_new: bool = True) -> None:
+        """Make sure that a name is free; unless ``is_new``, it may be that of a default of the class."""
         if not name.isidentifier():
             raise DeclarationError(
                 f"'{name}' is not a name for a part: letters, digits and underscores only"
@@ -202,7 +202,7 @@ class Component:
             raise DeclarationError(
                 f"{self._node.label} has a '{name}' already; choose another name"
             )
-        if anew and hasattr(type(self), name):
+        if is_new and hasattr(type(self), name):
             stated = name in ("equations", "initial_equations")
             raise DeclarationError(
                 f"'{name}' is an attribute of class {type(self).__name__}; "

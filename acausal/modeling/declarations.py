@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, overload
 import numpy as np
 
 from acausal.errors import DeclarationError, shown
-from acausal.modeling.stated import call_text
+from acausal.modeling.written import call_text
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
 STATE_SELECT: tuple[StateSelect, ...] = ("never", "avoid", "default", "prefer", "always")

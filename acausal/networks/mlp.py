@@ -189,9 +189,9 @@ def check_inputs(network: object, inputs: Sequence[ArrayLike], expected: int) ->
     """
     name, wanted = type(network).__name__, f"{expected} input{'s' * (expected != 1)}"
     if len(inputs) != expected:
-        mend = "give the others, too" if len(inputs) < expected else "leave out the others"
+        remedy = "give the others, too" if len(inputs) < expected else "leave out the others"
         raise DeclarationError(
-            f"{name}: a network of {wanted} is called with {len(inputs)}; {mend}"
+            f"{name}: a network of {wanted} is called with {len(inputs)}; {remedy}"
         )
     for x in inputs:
         if not is_real(x):

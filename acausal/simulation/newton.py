@@ -62,7 +62,7 @@ class Patience(NamedTuple):
     Attributes:
         most: corrections at most. diverges: the ratio of two corrections from which on it is given up.
         renews: whether the matrix is renewed where corrections shrink slowly.
-        damps: whether it begins anew with shorter corrections where it fails.
+        damps: whether it begins again with shorter corrections where it fails.
     """
 
     most: int
@@ -214,7 +214,7 @@ def _damped(
     left: Array | float,
     found: Newton,
 ) -> Newton:
-    """Begin anew with derivatives of zero; each correction is halved until less is left of the equation."""
+    """Begin again with derivatives of zero; each correction is halved until less is left of the equation."""
 
     def remaining(x: State) -> tuple[State, Array]:
         residual = equation.residual(x)

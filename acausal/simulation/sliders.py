@@ -60,7 +60,7 @@ def sliders(
     inputs: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> Any:
-    """Sliders that simulate a model again when they are moved, with a plot that follows. Nothing is compiled anew.
+    """Sliders that simulate a model again when they are moved, with a plot that follows. Nothing is compiled again.
 
     Arguments:
         system: a compiled model.

@@ -59,9 +59,9 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
         pieces = [
             p for group in pending for p in _specialise(group, classes, parameters, model.folded)
         ]
-        pending = [p for p in pieces if not _is_settled(p.template)]
+        pending = [p for p in pieces if not _says_alias(p.template)]
         changed = False
-        for piece in _in_order((p for p in pieces if _is_settled(p.template)), order):
+        for piece in _in_order((p for p in pieces if _says_alias(p.template)), order):
             alias = piece.template.alias()
             if alias is None:
                 redundant += piece.stated(range(len(piece)))
@@ -94,7 +94,7 @@ def _check_inputs(model: FlatModel, classes: AliasClasses) -> None:
             )
 
 
-def _is_settled(template: Statement) -> bool:
+def _says_alias(template: Statement) -> bool:
     """Whether an equation only says that variables are equal up to sign, or zero, or nothing."""
     return template.is_void or template.alias() is not None
 

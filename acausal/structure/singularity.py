@@ -51,10 +51,10 @@ def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]
         )
     floating = any(_is_potential(model, node) for node in unmatched)
     excess = bool(surplus or aliases.redundant)
-    mend = (missing and forgotten_equations(model)) or _mend(bool(missing), excess, floating)
+    remedy = (missing and forgotten_equations(model)) or _remedy(bool(missing), excess, floating)
     if is_set := inputs_that_are_set(model, (*surplus, *aliases.redundant)):
-        mend = f"{is_set} {mend}"
-    return "; ".join(parts) + f". {mend}"
+        remedy = f"{is_set} {remedy}"
+    return "; ".join(parts) + f". {remedy}"
 
 
 def _is_potential(model: FlatModel, node: int) -> bool:
@@ -63,7 +63,7 @@ def _is_potential(model: FlatModel, node: int) -> bool:
     return isinstance(model.layout.variable_declaration(node), Potential)
 
 
-def _mend(missing: bool, surplus: bool, floating: bool) -> str:
+def _remedy(missing: bool, surplus: bool, floating: bool) -> str:
     if not missing:
         return "Are two sources or fixed points joined rigidly, or is an equation stated twice?"
     if floating:

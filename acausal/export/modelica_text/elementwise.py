@@ -31,7 +31,7 @@ CONDITIONS: dict[str, str] = {
 }  # fmt: skip
 """Conditions; Modelica has no equality of real numbers."""
 
-SETTLED = {
+KNOWN_CONDITIONS = {
     "(not true)": "false", "(not false)": "true", "(true and true)": "true", "(false or false)": "false",
     "(true and false)": "false", "(false and true)": "false", "(false and false)": "false",
 }  # fmt: skip
@@ -81,7 +81,9 @@ def _unchanged(equation: Equation, terms: Sequence[BlockTerm]) -> BlockTerm | No
     return None
 
 
-def _settled(equation: Equation, terms: Sequence[BlockTerm], texts: Sequence[str]) -> str | None:
+def _known_condition(
+    equation: Equation, terms: Sequence[BlockTerm], texts: Sequence[str]
+) -> str | None:
     """A condition that is known: of a number and itself, or infinity."""
     name = name_of(equation)
     if name in ("and", "or", "not"):
@@ -106,11 +108,11 @@ def _elementwise(template: str, truth: bool) -> Rule:
 
         def element(index: Index) -> str:
             texts = _each(terms, shape, index)
-            settled = _settled(equation, terms, texts) if truth else None
-            if settled is not None:
-                return settled
+            known = _known_condition(equation, terms, texts) if truth else None
+            if known is not None:
+                return known
             found = template.format(*texts)
-            return SETTLED.get(found, found)
+            return KNOWN_CONDITIONS.get(found, found)
 
         plain = template == "{0}" and all(t.is_plain for t in terms)
         whole = terms[0].whole if template == "{0}" else None

@@ -336,14 +336,14 @@ class ClassWriter:
     def _attributes(self, declared: Variable, each: str) -> dict[str, str]:
         """Start, fixed, nominal and priority, each perhaps that of another attribute of the component."""
 
-        def settled(given: Any) -> Any:
+        def value_of(given: Any) -> Any:
             return getattr(self.component, given) if isinstance(given, str) else given
 
         found: dict[str, str] = {}
-        start, fixed, nominal = map(settled, (declared.start, declared.fixed, declared.nominal))
+        start, fixed, nominal = map(value_of, (declared.start, declared.fixed, declared.nominal))
         state = declared.state
         if state not in ("never", "avoid", "default", "prefer", "always"):
-            state = settled(state)
+            state = value_of(state)
         if isinstance(start, sp.Basic | list | tuple | np.ndarray) or start != 0 or fixed:
             bare = isinstance(start, list | tuple | np.ndarray)
             found["start" if bare else f"{each}start"] = self._start(declared, start)

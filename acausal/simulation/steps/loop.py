@@ -323,7 +323,7 @@ def _edge(problem: Integration, ahead: Ahead, stop: between_events.Stop) -> betw
 def _begun_again(
     method: Any, problem: Integration, row: Row, landing: Landing, moved: Array | None
 ) -> Landing:
-    """The method begins anew behind a jump of the right-hand side, and where another run begins.
+    """The method begins again behind a jump of the right-hand side, and where another run begins.
 
     ``moved`` is zero and has the derivative of an edge's time: the state behind it moves by the difference of both
     sides. None where derivatives in forward mode are not wanted.
