@@ -62,5 +62,5 @@ from acausal.codegen.reading import (
     read_parameters as read_parameters,
 )
 from acausal.codegen.state_jacobian import StateJacobian as StateJacobian
-from acausal.codegen.unlike_formulas import joined as joined
+from acausal.codegen.unlike_formulas import join_formulas as join_formulas
 from acausal.codegen.values import Packed as Packed, Values as Values

@@ -8,7 +8,7 @@ from typing import Any
 
 from networkx.utils import UnionFind
 
-from acausal.drawing.ports import SIGNAL, color_of, joined, ports_of, side_of_gate
+from acausal.drawing.ports import SIGNAL, color_of, port_of_element, ports_of, side_of_gate
 from acausal.drawing.scheme import OPPOSITE, Box, End, Footing, Kind, Net, Port, Scheme
 from acausal.modeling import Component, Connector, Icon, Input, Module, owner_and_name
 
@@ -108,7 +108,7 @@ class _Reader:
         """An outside connector: a small box."""
         node: Any = self.model._node
         shape = getattr(node.declaration(name.partition("[")[0]), "shape", None)
-        name = joined(name, shape[0] if shape and isinstance(shape[0], int) else 1)
+        name = port_of_element(name, shape[0] if shape and isinstance(shape[0], int) else 1)
         if name not in self.gates:
             kind, color = _kind_and_color(end)
             ports = {port.name: port for port in ports_of(self.model, _icon(self.model))}

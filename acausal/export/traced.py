@@ -196,10 +196,10 @@ def kind_of(dtype: Any) -> str:
 
 def trace(function: Callable[..., Any], *arguments: Any) -> TracedBlock:
     """The operations of a function of arrays; what does not reach a result is left out."""
-    return block_of(jax.make_jaxpr(function)(*arguments))
+    return traced_block(jax.make_jaxpr(function)(*arguments))
 
 
-def block_of(closed: ClosedJaxpr) -> TracedBlock:
+def traced_block(closed: ClosedJaxpr) -> TracedBlock:
     """The operations of a closed jaxpr."""
     operations: list[TracedOperation] = []
     constants: dict[int, TracedConstant] = {}

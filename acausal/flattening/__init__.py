@@ -11,7 +11,7 @@ from acausal.flattening.equation_group import (
     EquationGroup as EquationGroup,
     GuardGroup as GuardGroup,
     UpdateGroup as UpdateGroup,
-    joined as joined,
+    join_groups as join_groups,
     specialised as specialised,
 )
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten

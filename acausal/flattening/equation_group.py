@@ -52,7 +52,7 @@ class EquationGroup:
         return specialised(self.template, pattern, self.origins[0])
 
 
-def joined(groups: Sequence[EquationGroup]) -> EquationGroup:
+def join_groups(groups: Sequence[EquationGroup]) -> EquationGroup:
     """Groups of one template as one."""
     columns = zip(*(g.columns for g in groups), strict=True)
     return EquationGroup(groups[0].template, *map(np.concatenate, columns))

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.errors import StructureError
-from acausal.flattening import EquationGroup, FlatModel, Integers, Origin, Statement, joined
+from acausal.flattening import EquationGroup, FlatModel, Integers, Origin, Statement, join_groups
 from acausal.structure.alias_classes import KNOWN, MERGED, REFUSED, AliasClasses
 
 
@@ -107,7 +107,7 @@ def _by_template(groups: Iterable[EquationGroup]) -> list[EquationGroup]:
     found: dict[Statement, list[EquationGroup]] = {}
     for group in groups:
         found.setdefault(group.template, []).append(group)
-    return [same[0] if len(same) == 1 else joined(same) for same in found.values()]
+    return [same[0] if len(same) == 1 else join_groups(same) for same in found.values()]
 
 
 def _in_order(groups: Iterable[EquationGroup], order: dict[Origin, int]) -> list[EquationGroup]:

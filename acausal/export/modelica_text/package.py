@@ -23,7 +23,7 @@ from acausal.export.modelica_text.declared import (
 )
 from acausal.export.modelica_text.discrete import is_discrete, stated
 from acausal.export.modelica_text.expressions import AtEvents, Names, Printer, equation, instants
-from acausal.export.modelica_text.network import block_of
+from acausal.export.modelica_text.network import block_class
 from acausal.export.modelica_text.spelling import (
     array,
     class_name,
@@ -114,7 +114,7 @@ class Package:
         if key not in self.blocks:
             suffix = "_d" + "".join(map(str, orders)) if any(orders) else ""
             wanted = f"{name[0].upper()}{name[1:]}{suffix}"
-            self.blocks[key] = self.add(wanted, lambda n: block_of(n, module, orders))
+            self.blocks[key] = self.add(wanted, lambda n: block_class(n, module, orders))
         return self.blocks[key]
 
     def model(self, component: Component, wanted: str, inputs: Sequence[str] | None = None) -> str:
