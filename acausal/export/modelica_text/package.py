@@ -15,7 +15,6 @@ from acausal.export.modelica_text.declared import (
     Flat,
     connector_class,
     is_integer,
-    lies_within,
     names_in_class,
     names_in_tree,
     numbered,
@@ -50,6 +49,7 @@ from acausal.modeling import (
     owner_and_name,
     references,
 )
+from acausal.netlist import lies_within
 
 
 @dataclass
@@ -384,7 +384,8 @@ class ClassWriter:
         found: Flat = {}
         top = self.component._node.children[path[0]] if path else part
         for name, value in part._node.modifiers.items():
-            if not lies_within(value, self.component) or (path and lies_within(value, top)):
+            given = value.value if isinstance(value, Start) else value
+            if not lies_within(self.component, given) or (path and lies_within(top, given)):
                 continue
             first, *rest = name.split(".")
             held = self.package.names(part._node)[1]
