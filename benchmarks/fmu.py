@@ -17,7 +17,7 @@ import numpy as np
 
 import acausal as ac
 from acausal._jax import host_calls
-from acausal.fmu import registry
+from acausal.fmu import function
 
 STEPS = 20_000
 TIMES = 5
@@ -71,13 +71,13 @@ def main() -> None:
     host_calls._call = counted
     jax.block_until_ready(run(params))
     host_calls._call = kept
-    computed = registry.computed(model._part)
+    computed = function.computed(model._part)
     given, found = np.zeros(2 + model._part.n + 99), np.zeros(model._part.n_values)
     starts = np.frombuffer(computed.defaults())
     at = 2 + model._part.n + model._part.n_inputs
     given[at : at + len(starts)] = starts
     pair = given.ctypes.data, found.ctypes.data
-    assert isinstance(computed, registry.Evaluated)
+    assert isinstance(computed, function.Evaluated)
     alone = best(lambda: [computed._evaluate(*pair) for _ in range(1000)]) / 1000
     print(f"{model.description.model}, {len(params)} parameters, {STEPS} Euler steps")
     print(f"  {value / STEPS * 1e6:8.2f} us a step, {calls / STEPS:.2f} calls a step")

@@ -2,12 +2,13 @@ from .at_import import configure_with_jax as configure_with_jax
 from .compilation_cache import use_compilation_cache as use_compilation_cache
 from .damped_steps import (
     Damped as Damped,
+    Descent as Descent,
+    DescentMethod as DescentMethod,
     after_trial as after_trial,
     before_trials as before_trials,
     levenberg_marquardt as levenberg_marquardt,
 )
-from .descent import Descent as Descent, DescentMethod as DescentMethod
-from .differentiation import two_modes as two_modes
+from .differentiation import two_modes as two_modes, value_and_jacobian as value_and_jacobian
 from .dtypes import (
     cast as cast,
     check_time as check_time,
@@ -22,7 +23,6 @@ from .host_calls import (
     call_host as call_host,
     register_host as register_host,
 )
-from .jacobian import value_and_jacobian as value_and_jacobian
 from .keys import as_key as as_key
 from .primitives import (
     BARRIER as BARRIER,

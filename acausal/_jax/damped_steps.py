@@ -14,10 +14,30 @@ from typing import Any, Protocol
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import optax
 from jax.flatten_util import ravel_pytree
-from jaxtyping import Array, Float, PyTree
+from jaxtyping import Array, Bool, Float, PyTree
 
-from acausal._jax.descent import Descent, DescentMethod
+
+class DescentMethod(optax.GradientTransformationExtraArgs):
+    """An optimizer that compares losses of the same data, and goes back from a worse point by itself.
+
+    Its state is a `Descent`.
+    """
+
+
+class Descent(eqx.Module):
+    """State of a descent.
+
+    Attributes:
+        point, value: the best point up to now, and its loss (infinite before the first update).
+        converged: whether no lower loss can be found.
+    """
+
+    point: Float[Array, " n"]
+    value: Float[Array, ""]
+    converged: Bool[Array, ""]
+
 
 DAMPING = 1e-3
 """The first damping, relative to the scale of the local model."""

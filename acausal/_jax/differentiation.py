@@ -1,8 +1,8 @@
-"""Functions that have one implementation for derivatives in reverse mode, and another for those in forward mode."""
+"""Derivatives: Jacobians, and functions with one implementation for reverse mode and another for forward mode."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any, TypeVar
 
@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 from jax.custom_derivatives import SymbolicZero
-from jaxtyping import PyTree
+from jaxtyping import Float, PyTree
 
 from acausal._jax.deferred import deferred
 from acausal.errors import DataError
@@ -41,24 +41,22 @@ def two_modes(
 
     def derivative(primals: tuple[PyTree], tangents: tuple[PyTree]) -> tuple[Result, Any]:
         values, tree = jax.tree.flatten(primals[0])
-        directions = jax.tree.leaves(tangents[0], is_leaf=_is_zero)
-        moved = [not _is_zero(d) for d in directions]
+        directions = jax.tree.leaves(tangents[0], is_leaf=is_zero)
+        moved = [not is_zero(d) for d in directions]
 
         def of(function: Callable[[PyTree], Result], values: Sequence[Array]) -> Any:
             """The function of the arguments that move, and these."""
 
             def of_moved(some: list[Array]) -> tuple[list[Array], Result]:
-                own = iter(some)
-                filled = [next(own) if m else v for v, m in zip(values, moved, strict=True)]
-                result = function(jax.tree.unflatten(tree, filled))
+                result = function(jax.tree.unflatten(tree, merged(values, moved, some)))
                 return jax.tree.leaves(eqx.filter(result, eqx.is_inexact_array)), result
 
-            return of_moved, [v for v, m in zip(values, moved, strict=True) if m]
+            return of_moved, picked(values, moved)
 
         found, pull, result = jax.vjp(*of(reverse, values), has_aux=True)
         arrays, fixed = eqx.partition((values, pull), eqx.is_array)
         saved = _differentiated_once(arrays)
-        given = [d for d, m in zip(directions, moved, strict=True) if m]
+        given = picked(directions, moved)
 
         def push(saved: PyTree, directions: list[Array]) -> list[Array]:
             values, _ = eqx.combine(saved, fixed)
@@ -82,8 +80,26 @@ def two_modes(
     return call
 
 
-def _is_zero(tangent: object) -> bool:
+def is_zero(tangent: object) -> bool:
+    """Whether JAX knows a derivative to be zero."""
     return isinstance(tangent, SymbolicZero)
+
+
+def picked(values: Sequence[Array], chosen: Sequence[bool]) -> list[Array]:
+    """Those of some values that are chosen."""
+    return [v for v, is_chosen in zip(values, chosen, strict=True) if is_chosen]
+
+
+def scattered(chosen: Sequence[bool], values: Iterable[Array]) -> list[Array | None]:
+    """Values in the chosen places, ``None`` in the others."""
+    own = iter(values)
+    return [next(own) if is_chosen else None for is_chosen in chosen]
+
+
+def merged(values: Sequence[Array], chosen: Sequence[bool], new: Iterable[Array]) -> list[Array]:
+    """The values, with new ones in the chosen places."""
+    pairs = zip(values, scattered(chosen, new), strict=True)
+    return [v if own is None else own for v, own in pairs]
 
 
 def _linear(push: Linear, pull: Linear, given: list[Array], like: list[Array]) -> list[Array]:
@@ -123,3 +139,16 @@ def _refuse(primals: tuple[Tree], tangents: tuple[Tree]) -> tuple[Tree, Tree]:
         "Adaptive steps have no second derivatives: give dt for fixed steps, "
         "or adjoint=diffrax.ForwardMode() and take derivatives in forward mode only."
     )
+
+
+def value_and_jacobian(
+    function: Callable[[Float[Array, " P"]], Float[Array, " ..."]],
+    at: Float[Array, " P"],
+    axis: int,
+) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
+    """A function's value and Jacobian, in forward mode; ``axis`` of the Jacobian belongs to the arguments."""
+
+    def push(direction: Float[Array, " P"]) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
+        return jax.jvp(function, (at,), (direction,))
+
+    return jax.vmap(push, out_axes=(None, axis))(jnp.eye(len(at), dtype=at.dtype))

@@ -9,8 +9,8 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax import Array
-from jax.custom_derivatives import SymbolicZero
 
+from acausal._jax.differentiation import is_zero, merged, picked, scattered
 from acausal._jax.side_by_side import one_by_one
 
 Task = TypeVar("Task")
@@ -72,27 +72,19 @@ def with_steps(
         @one_by_one
         def one(values: list[Array], steps: Steps, to: Result) -> list[Array]:
             def of_moved(some: list[Array]) -> Task:
-                filled = iter(some)
-                pairs = zip(values, kept.moved, strict=True)
-                return given([next(filled) if m else v for v, m in pairs])
+                return given(merged(values, kept.moved, some))
 
-            own = [v for v, m in zip(values, kept.moved, strict=True) if m]
-            return back(of_moved, own, steps, to)
+            return back(of_moved, picked(values, kept.moved), steps, to)
 
-        to = jax.tree.map(_filled, cotangents, is_leaf=_is_zero)
-        pulled = iter(one(kept.values, kept.steps, to))
-        return ([next(pulled) if m else None for m in kept.moved],)
+        to = jax.tree.map(_filled, cotangents, is_leaf=is_zero)
+        return (scattered(kept.moved, one(kept.values, kept.steps, to)),)
 
     run.defvjp(forward, backward, symbolic_zeros=True)
     return run(leaves)
 
 
-def _is_zero(leaf: object) -> bool:
-    return isinstance(leaf, SymbolicZero)
-
-
 def _filled(cotangent: Any) -> Any:
     """A cotangent, where it is zero, too."""
-    if not _is_zero(cotangent):
+    if not is_zero(cotangent):
         return cotangent
     return jnp.zeros(cotangent.shape, cotangent.dtype)

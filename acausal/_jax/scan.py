@@ -19,6 +19,7 @@ from jaxtyping import Array, Bool, PyTree, Shaped
 
 from acausal._jax import primitives
 from acausal._jax.batching import batched, is_small, operations
+from acausal._jax.differentiation import merged, picked, scattered
 
 ScanStep: TypeAlias = Callable[[PyTree, Array, PyTree], tuple[Array, PyTree]]
 """(constants, state, row) -> (next state, outputs), of arrays."""
@@ -198,16 +199,16 @@ def _back(step: FlatStep, saved: _Saved, cotangents: list[Array | None]) -> _Cot
 
     def backward(*args: Array) -> list[Array]:
         constants, states, rows = list(args[:n]), args[n], list(args[n + 1 : n + 1 + m])
-        to_states, to_end, *to_outputs = _scatter(given, args[n + 1 + m :])
+        to_states, to_end, *to_outputs = scattered(given, args[n + 1 + m :])
 
         def body(carry: _Carry, sample: _Sample) -> tuple[_Carry, list[Array]]:
             adjoint, totals = carry
             x, row, to_state, to_output = sample
 
             def moved(some: list[Array], x: Array, own: list[Array]) -> list[Array]:
-                return step(_merge(constants, some_constants, some), x, _merge(row, some_rows, own))
+                return step(merged(constants, some_constants, some), x, merged(row, some_rows, own))
 
-            new, pull = jax.vjp(moved, _some(constants, some_constants), x, _some(row, some_rows))
+            new, pull = jax.vjp(moved, picked(constants, some_constants), x, picked(row, some_rows))
             seeds = [
                 jnp.zeros_like(v) if c is None else c
                 for c, v in zip(to_output, new[1:], strict=True)
@@ -217,7 +218,7 @@ def _back(step: FlatStep, saved: _Saved, cotangents: list[Array | None]) -> _Cot
             return (by_x if to_state is None else by_x + to_state, totals), by_row
 
         adjoint = jnp.zeros_like(states[0]) if to_end is None else to_end
-        start = adjoint, [jnp.zeros_like(c) for c in _some(constants, some_constants)]
+        start = adjoint, [jnp.zeros_like(c) for c in picked(constants, some_constants)]
         samples = states, rows, to_states, to_outputs
         unroll = AT_ONCE if sum(t.size for t in start[1]) > MANY * saved.operations else 1
         (adjoint, totals), by_rows = lax.scan(body, start, samples, reverse=True, unroll=unroll)
@@ -228,12 +229,12 @@ def _back(step: FlatStep, saved: _Saved, cotangents: list[Array | None]) -> _Cot
     count = sum(some_constants)
     largest = jnp.abs(found[0])
     if saved.first is not None:
-        by_first = _scatter(some_rows, found[1 + count :])[saved.first]
+        by_first = scattered(some_rows, found[1 + count :])[saved.first]
         largest = largest if by_first is None else jnp.maximum(largest, jnp.abs(by_first).max(0))
     exploded = _exploded(largest, saved, cotangents)
     adjoint, *others = (jnp.where(exploded, jnp.nan, c).astype(c.dtype) for c in found)
-    by_constants = _scatter(some_constants, others[:count])
-    return by_constants, adjoint, _scatter(some_rows, others[count:])
+    by_constants = scattered(some_constants, others[:count])
+    return by_constants, adjoint, scattered(some_rows, others[count:])
 
 
 def _exploded(adjoint: Array, saved: _Saved, cotangents: list[Array | None]) -> Array:
@@ -255,18 +256,3 @@ def _exploded(adjoint: Array, saved: _Saved, cotangents: list[Array | None]) -> 
 
 def _size(array: Array) -> Array:
     return jnp.max(jnp.abs(array), initial=0.0)
-
-
-def _some(values: Sequence[Array], chosen: Sequence[bool]) -> list[Array]:
-    return [v for v, is_chosen in zip(values, chosen, strict=True) if is_chosen]
-
-
-def _scatter(chosen: Sequence[bool], values: Sequence[Array]) -> list[Array | None]:
-    """The values in the chosen places, ``None`` in the others."""
-    own = iter(values)
-    return [next(own) if is_chosen else None for is_chosen in chosen]
-
-
-def _merge(values: Sequence[Array], chosen: Sequence[bool], new: Sequence[Array]) -> list[Array]:
-    """The values, with new ones in the chosen places."""
-    return [v if own is None else own for v, own in zip(values, _scatter(chosen, new), strict=True)]

@@ -15,7 +15,7 @@ from acausal._jax import is_number, known, traced
 from acausal.analysis.filtering import Function
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, ModelError, nearest, shown
-from acausal.modeling import names_in
+from acausal.modeling import by_name
 from acausal.simulation import Scheme, Steps, for_fixed_steps, integrate, modes, solver_named
 
 if TYPE_CHECKING:
@@ -169,21 +169,16 @@ def numbers_by_name(
     Raises:
         DataError: for an unknown name, or what is not such a number.
     """
-    if given is None:
-        return {}
-    if not isinstance(given, Mapping):
-        first = known_names[0] if known_names else "name"
-        raise DataError(
-            f"{argument}={shown(given)} has no names; give {argument}={{'{first}': ...}}."
-        )
-    for name, value in given.items():
+    first = known_names[0] if known_names else "name"
+    found = by_name(given, argument, f"{argument}={{'{first}': ...}}")
+    for name, value in found.items():
         if name not in known_names:
             raise DataError(f"{argument}: '{name}' is not {kind}: {nearest(name, known_names)}")
         if not traced(value) and not (is_number(value) and value >= 0):
             raise DataError(
                 f"{argument}: '{name}' is {shown(value)}; give a finite number that is not negative."
             )
-    return {n: given[n] for n in names_in(given, argument)}
+    return found
 
 
 def parts_of_steps(system: System, at: Values, h: float) -> int | None:

@@ -4,7 +4,6 @@ In: a `ReducedModel`. Out: a `Program` and the layout of its parameters.
 It knows nothing of initial values, time integration or data.
 """
 
-from acausal.codegen.description import described as described
 from acausal.codegen.equation_formula import formula_of as formula_of
 from acausal.codegen.equations import explicit_equations as explicit_equations
 from acausal.codegen.field import Field as Field
@@ -30,7 +29,6 @@ from acausal.codegen.interpreter import (
 )
 from acausal.codegen.iteration_matrix import (
     DenseIterationMatrix as DenseIterationMatrix,
-    IterationMatrix as IterationMatrix,
     SparseIterationMatrix as SparseIterationMatrix,
 )
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
@@ -51,9 +49,9 @@ from acausal.codegen.parameters import (
 )
 from acausal.codegen.program import (
     DISCRETE as DISCRETE,
-    STATES as STATES,
     ZERO as ZERO,
     Program as Program,
+    described as described,
 )
 from acausal.codegen.reading import (
     Arrays as Arrays,
@@ -64,5 +62,5 @@ from acausal.codegen.reading import (
     read_parameters as read_parameters,
 )
 from acausal.codegen.state_jacobian import StateJacobian as StateJacobian
-from acausal.codegen.unlike_formulas import joined as joined
+from acausal.codegen.unlike_formulas import join_formulas as join_formulas
 from acausal.codegen.values import Packed as Packed, Values as Values

@@ -81,7 +81,7 @@ def _apply(pivots: Sequence[Pivot], b: Float[Array, " n"]) -> Float[Array, " n"]
 
 
 def _computed_once(values: Array) -> Array:
-    """The values: XLA would compute them anew at every use, where that looks cheap."""
+    """The values: XLA would compute them again at every use, where that looks cheap."""
     return jax.lax.optimization_barrier(values)
 
 

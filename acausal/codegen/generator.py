@@ -22,7 +22,7 @@ from acausal.codegen.instructions import (
 )
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.program import STATES, Program
-from acausal.codegen.unlike_formulas import joinable, joined
+from acausal.codegen.unlike_formulas import join_formulas, joinable
 from acausal.flattening import Integers
 from acausal.structure import (
     Accumulation,
@@ -68,7 +68,9 @@ class _Generator:
     def write_waiting(self) -> None:
         """Write the formulas that wait: together if they are many."""
         waiting, self.waiting = self.waiting, []
-        instructions = joined([formula for formula, _ in waiting], self.sizes, self.parameters.size)
+        instructions = join_formulas(
+            [formula for formula, _ in waiting], self.sizes, self.parameters.size
+        )
         results = [nodes for _, nodes in waiting]
         if len(instructions) < len(results):
             results = [np.concatenate(results)]

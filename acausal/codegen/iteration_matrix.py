@@ -27,12 +27,10 @@ class IterationMatrix(ABC):
         """What is kept of ``I - c J``: arrays; ``entries`` are those of ``J``."""
 
     @abstractmethod
-    def solve(self, kept: Any, b: Float[Array, " n"]) -> Float[Array, " n"]:
-        """``x`` with ``(I - c J) x = b``; not finite where the matrix is singular."""
-
-    @abstractmethod
-    def solve_transposed(self, kept: Any, b: Float[Array, " n"]) -> Float[Array, " n"]:
-        """``x`` with ``(I - c J)^T x = b``."""
+    def solve(
+        self, kept: Any, b: Float[Array, " n"], *, transposed: bool = False
+    ) -> Float[Array, " n"]:
+        """``x`` with ``(I - c J) x = b``, or with the transposed matrix; not finite where it is singular."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,17 +57,14 @@ class DenseIterationMatrix(IterationMatrix):
         factors, _, permutation = lu(jnp.eye(n, dtype=entries.dtype) - c * jacobian)
         return factors, permutation
 
-    def solve(self, kept: tuple[Array, Array], b: Float[Array, " n"]) -> Float[Array, " n"]:
-        """See `IterationMatrix`."""
-        factors, permutation = kept
-        y = _triangular(factors, b[permutation], lower=True)
-        return _triangular(factors, y, lower=False)
-
-    def solve_transposed(
-        self, kept: tuple[Array, Array], b: Float[Array, " n"]
+    def solve(
+        self, kept: tuple[Array, Array], b: Float[Array, " n"], *, transposed: bool = False
     ) -> Float[Array, " n"]:
         """See `IterationMatrix`."""
         factors, permutation = kept
+        if not transposed:
+            y = _triangular(factors, b[permutation], lower=True)
+            return _triangular(factors, y, lower=False)
         y = _triangular(factors, b, lower=False, transposed=True)
         y = _triangular(factors, y, lower=True, transposed=True)
         return jnp.zeros_like(y).at[permutation].set(y, unique_indices=True)
@@ -116,16 +111,9 @@ class SparseIterationMatrix(IterationMatrix):
         factors = jnp.where(of_states, c, -1.0).astype(entries.dtype)
         return jnp.asarray(identity, entries.dtype) - factors * entries
 
-    def solve(self, kept: Float[Array, " n_entries"], b: Float[Array, " n"]) -> Float[Array, " n"]:
-        """See `IterationMatrix`."""
-        return self.matrix.solve(kept, self._padded(b))[: len(b)]
-
-    def solve_transposed(
-        self, kept: Float[Array, " n_entries"], b: Float[Array, " n"]
+    def solve(
+        self, kept: Float[Array, " n_entries"], b: Float[Array, " n"], *, transposed: bool = False
     ) -> Float[Array, " n"]:
         """See `IterationMatrix`."""
-        return self.matrix.solve_transposed(kept, self._padded(b))[: len(b)]
-
-    def _padded(self, b: Array) -> Array:
-        """The right side, with zeros where it is too short."""
-        return jnp.pad(b, (0, len(self.matrix.pattern.row_order) - len(b)))
+        padded = jnp.pad(b, (0, len(self.matrix.pattern.row_order) - len(b)))
+        return self.matrix.solve(kept, padded, transposed=transposed)[: len(b)]

@@ -6,7 +6,7 @@ states, the inputs, a zero, the discrete variables, then those that the instruct
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,6 +15,7 @@ import numpy as np
 
 from acausal.codegen.gather import Elements, Gather, gather
 from acausal.codegen.instructions import ExplicitInstruction, Instruction
+from acausal.errors import listing
 from acausal.flattening import Integers, LeavesCaches
 
 FEW = 12
@@ -122,3 +123,25 @@ class Program(LeavesCaches):
         """For every array that is computed, the instruction that fills it."""
         pairs = enumerate(zip(self.first, self.instructions, strict=True))
         return {a: i for i, (first, one) in pairs for a in range(first, first + one.outputs)}
+
+
+def described(program: Program, number: int, name: Callable[[int], str]) -> str:
+    """The variables that an instruction gives, and their formula.
+
+    Arguments:
+        number: of the instruction. name: of a node.
+    """
+    instruction, first = program.instructions[number], program.first[number]
+    rows = program.nodes[first : first + instruction.outputs]
+    names = [_all(name, row) for row in rows]
+    if isinstance(instruction, ExplicitInstruction):
+        return f"{names[0]}{instruction.text}"
+    return f"{listing(names, 6)}: {'linear ' if instruction.is_linear else ''}equations"
+
+
+def _all(name: Callable[[int], str], nodes: Integers) -> str:
+    """The name of the only node, or the first and the last."""
+    found = [int(node) for node in nodes if node >= 0]
+    if not found:
+        return "an auxiliary value"
+    return name(found[0]) if len(found) == 1 else f"{name(found[0])} ... {name(found[-1])}"

@@ -27,40 +27,28 @@ class SparseMatrix:
 
     pattern: Pattern
 
-    def times(self, entries: Float[Array, " nnz"], x: Float[Array, " n"]) -> Float[Array, " n"]:
-        """``A x``, shape (n,)."""
-        p = self.pattern
-        return jax.ops.segment_sum(entries * x[p.columns], p.rows, len(p.row_order))
-
-    def transposed_times(
-        self, entries: Float[Array, " nnz"], x: Float[Array, " n"]
+    def times(
+        self, entries: Float[Array, " nnz"], x: Float[Array, " n"], *, transposed: bool = False
     ) -> Float[Array, " n"]:
-        """``A^T x``, shape (n,)."""
+        """``A x``, or ``A^T x``, shape (n,)."""
         p = self.pattern
-        return jax.ops.segment_sum(entries * x[p.rows], p.columns, len(p.row_order))
+        read, added = (p.rows, p.columns) if transposed else (p.columns, p.rows)
+        return jax.ops.segment_sum(entries * x[read], added, len(p.row_order))
 
-    def solve(self, entries: Float[Array, " nnz"], b: Float[Array, " n"]) -> Float[Array, " n"]:
-        """``x`` with ``A x = b``, differentiable by both; NaN where the matrix is singular.
+    def solve(
+        self, entries: Float[Array, " nnz"], b: Float[Array, " n"], *, transposed: bool = False
+    ) -> Float[Array, " n"]:
+        """``x`` with ``A x = b``, or ``A^T x = b``, differentiable by both; NaN where the matrix is singular.
 
         Arguments:
             entries: values of the entries, shape (nnz,). b: right side, shape (n,).
         """
-        return self._solve(False, entries, b)
-
-    def solve_transposed(
-        self, entries: Float[Array, " nnz"], b: Float[Array, " n"]
-    ) -> Float[Array, " n"]:
-        """``x`` with ``A^T x = b``; as `solve`, and with the same factors."""
-        return self._solve(True, entries, b)
-
-    def _solve(self, transposed: bool, entries: Array, b: Array) -> Array:
-        times = self.transposed_times if transposed else self.times
 
         def solve(other: bool) -> Callable[[Any, Array], Array]:
             return lambda _, b: self._on_host(transposed != other, entries, b)
 
         return jax.lax.custom_linear_solve(
-            lambda x: times(entries, x), b, solve(False), solve(True)
+            lambda x: self.times(entries, x, transposed=transposed), b, solve(False), solve(True)
         )
 
     def _on_host(self, transposed: bool, entries: Array, b: Array) -> Array:

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -144,6 +145,15 @@ class StateJacobian(LeavesCaches):
         if unknowns is None:
             unknowns = field.loop_unknowns(self.open_loops, x)
         return self.pattern.entries(opened, jnp.concatenate([x, unknowns]))
+
+    def factorized(
+        self,
+        field: Callable[[Float[Array, " n"]], Float[Array, " n"]],
+        x: Float[Array, " n"],
+        c: Float[Array, ""],
+    ) -> Any:
+        """The factors of ``I - c J`` at a point, to solve with by `iteration_matrix`; arguments as for `entries`."""
+        return self.iteration_matrix.factorize(self.entries(field, x), c)
 
     @cached_property
     def iteration_matrix(self) -> IterationMatrix:

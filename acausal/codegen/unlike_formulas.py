@@ -41,7 +41,7 @@ def joinable(formula: ArrayFormula) -> bool:
     return formula.size <= FEW_INSTANCES and formula.expression.free_symbols <= own
 
 
-def joined(
+def join_formulas(
     formulas: Sequence[ArrayFormula], sizes: Sequence[int], n_parameters: int
 ) -> list[ArrayFormula | UnlikeFormulas]:
     """The formulas in order; where many may be computed together, they are."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 import warnings
@@ -14,7 +15,6 @@ import acausal as ac
 from acausal.command import check, export, fit, new, page, predict, show, simulate
 from acausal.command.exit_codes import BROKEN_PIPE, EXIT_CODES, USAGE, UsageError
 from acausal.command.output import CommandOutput
-from acausal.command.verbosity import logging_to_stderr
 
 COMMANDS = (check, show, simulate, fit, predict, export, page, new)
 
@@ -87,3 +87,22 @@ def _warnings_to(out: CommandOutput) -> Generator[None]:
         warnings.simplefilter("default", UserWarning)
         warnings.showwarning = show_warning
         yield
+
+
+LEVELS = {0: logging.WARNING, 1: logging.INFO}
+"""Levels by how often ``-v`` was given; more gives all."""
+
+
+@contextmanager
+def logging_to_stderr(verbose: int) -> Generator[None]:
+    """Show what the logger ``acausal`` is told, while a command runs."""
+    logger, handler = logging.getLogger("acausal"), logging.StreamHandler()
+    handler.setFormatter(logging.Formatter("%(relativeCreated)7.0f ms  %(name)s: %(message)s"))
+    before = logger.level
+    logger.setLevel(LEVELS.get(verbose, logging.DEBUG))
+    logger.addHandler(handler)
+    try:
+        yield
+    finally:
+        logger.removeHandler(handler)
+        logger.setLevel(before)

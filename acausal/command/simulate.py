@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import io
-import re
 import sys
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
@@ -25,7 +23,7 @@ from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.output import CommandOutput, number
 from acausal.command.records import add_reading, read_record
 from acausal.errors import nearest
-from acausal.files import need_path, write_files
+from acausal.files import csv_text, need_path, write_files
 
 if TYPE_CHECKING:
     import numpy as np
@@ -58,7 +56,7 @@ def add(parsers: Parsers) -> None:
         "--names",
         nargs="+",
         metavar="NAME",
-        help="variables, also as patterns such as 'spring.*'; by default states and inputs",
+        help="variables, or patterns: 'spring.*' those of spring, '**.v' all velocities; by default states and inputs",
     )
     results.add_argument(
         "--out", metavar="FILE", help="write the variables as CSV; - to the output"
@@ -160,18 +158,17 @@ def _inputs(
 
 
 def _names(patterns: list[str] | None, system: ac.System) -> list[str]:
-    """The variables that match names or patterns, in the model's order of each."""
+    """The variables that names or patterns stand for; an unknown one is refused before anything is computed."""
     if patterns is None:
         return [*system.states, *system.inputs]
+    from acausal.modeling import names_matching  # so that help imports no sympy
+
     known = tuple(dict.fromkeys((*system.variables, *system.inputs)))
-    chosen: list[str] = []
-    for pattern in patterns:
-        wanted = re.compile(".*".join(map(re.escape, pattern.split("*"))))
-        found = [n for n in known if wanted.fullmatch(n)]
-        if not found:
-            raise ac.DataError(f"The model has no variable '{pattern}': {nearest(pattern, known)}")
-        chosen += found
-    return list(dict.fromkeys(chosen))
+    names = names_matching(patterns, known)
+    for name in names:
+        if name not in known:
+            raise ac.DataError(f"The model has no variable '{name}': {nearest(name, known)}")
+    return list(names)
 
 
 def _write(args: Namespace, solution: ac.Solution, names: list[str]) -> list[str]:
@@ -189,11 +186,9 @@ def _write(args: Namespace, solution: ac.Solution, names: list[str]) -> list[str
 
 
 def _print_csv(solution: ac.Solution, names: list[str]) -> None:
-    columns = solution.to_dict(names)
-    units = ("s" if n == "time" else solution.system.unit(n) for n in columns)
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(f"{n} [{unit}]" for n, unit in zip(columns, units, strict=True))
-    writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
+    columns = solution.to_dict(names).items()
+    text = csv_text({f"{n} [{solution.unit(n)}]": column for n, column in columns})
+    sys.stdout.write(text.replace("\r\n", "\n"))
 
 
 def _summary(

@@ -79,7 +79,7 @@ def mpc(
     method: str = "collocation",
     max_iterations: int = 200,
 ) -> MPC:
-    """A controller that optimises the inputs of a model over a horizon, at each sample anew.
+    """A controller that optimises the inputs of a model over a horizon, again at each sample.
 
     It minimises, over the samples of the horizon, the weighted squares of what variables are off their references, of
     inputs, and of what inputs change from sample to sample. Inputs are held between samples.

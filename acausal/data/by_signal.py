@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 from typing import Any, TypeAlias
 
 from acausal.errors import DataError, listing, nearest, shown
+from acausal.modeling import by_name
 
 Choices: TypeAlias = str | Mapping[str, str] | None
 """A choice for all signals, or choices by name; where there is none, the default."""
@@ -48,16 +49,13 @@ def kept(given: Choices, names: Collection[str]) -> Choices:
     return {name: choice for name, choice in given.items() if name in names}
 
 
-def check_units(units: Any) -> Mapping[str, str] | None:
-    """Units as given; refuse what has no names, and what is not text."""
-    if not isinstance(units, Mapping | None):
-        raise DataError(
-            f"units={shown(units)} has no names; give a unit by name: {{'mass.s': 'm'}}."
-        )
-    for name, unit in (units or {}).items():
+def check_units(units: Any) -> dict[str, str]:
+    """Units as given, none for None; refuse what has no names, and what is not text."""
+    found = by_name(units, "units", "a unit by name: {'mass.s': 'm'}")
+    for name, unit in found.items():
         if not isinstance(unit, str):
             raise DataError(f"units: '{name}' has {shown(unit)}; give a text such as 'N/m'.")
-    return units
+    return found
 
 
 def check_unit_names(units: Mapping[str, str], names: Collection[str]) -> None:

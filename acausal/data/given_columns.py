@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from numpy.typing import ArrayLike
 
 from acausal._jax import need_known
 from acausal.data.readers import SignalTable, is_data_frame, need_unique, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
-from acausal.data.time_bases import on_rows, union
 from acausal.errors import DataError, listing, nearest, shown
-from acausal.modeling import names_in
+from acausal.modeling import by_name, names_in
 
 Missing = Literal["refuse", "nan"]
 """What a NaN among samples is: a mistake, or a missing sample."""
@@ -170,20 +169,16 @@ def _masks(given: object, measured: Mapping[str, GivenSignal]) -> Mapping[str, n
     Raises:
         DataError: for what is not an array of truth values of the signal's length.
     """
-    if given is None:
-        return {}
-    if not isinstance(given, Mapping):
-        raise DataError(f"mask={shown(given)} has no names; give {{'mass.s': samples_that_count}}.")
     masks: dict[str, np.ndarray] = {}
-    for name in names_in(given, "mask"):
+    for name, own in by_name(given, "mask", "{'mass.s': samples_that_count}").items():
         if name not in measured:
             raise DataError(
                 f"There is a mask for '{name}' but no such signal: {nearest(name, measured)}"
             )
-        mask, shape = _array(given[name]), np.shape(measured[name].samples)
+        mask, shape = _array(own), np.shape(measured[name].samples)
         if getattr(mask, "dtype", None) != np.dtype(bool):
             raise DataError(
-                f"mask: '{name}' has {shown(given[name])}; give True for a sample that counts, else False."
+                f"mask: '{name}' has {shown(own)}; give True for a sample that counts, else False."
             )
         if mask.shape != shape:
             raise DataError(f"mask: '{name}' has shape {mask.shape} for samples of {shape}.")
@@ -207,7 +202,7 @@ def _check(name: str, samples: Any, ts: np.ndarray, place: Place, missing: Missi
         f"'{name}'",
         missing=missing == "nan",
         place=place,
-        mend="if such samples are missing, say missing='nan'",
+        remedy="if such samples are missing, say missing='nan'",
     )
 
 
@@ -218,3 +213,60 @@ def _place(i: int, ts: np.ndarray, unit: str) -> str:
 def _described(thing: object) -> str:
     shape = getattr(thing, "shape", None)
     return shown(thing) if shape is None else f"an array of shape {shape}"
+
+
+Times: TypeAlias = Float[np.ndarray, " n"]
+Rows: TypeAlias = Int[np.ndarray, " n"]
+
+SAME = 1e-6
+"""Times of two bases are one if they differ by less than this fraction of the local sample time."""
+
+
+def union(bases: Sequence[Times]) -> tuple[Times, list[Rows | None]]:
+    """The sorted times of all bases, and by base the rows of its samples there; ``None`` means all rows.
+
+    Each base increases strictly. The local sample time is the shortest interval beside a sample; of times that are
+    one, the earliest is kept. Equal bases cost one.
+    """
+    unlike, which = _unlike(bases)
+    if len(unlike) == 1:
+        return unlike[0], [None for _ in bases]
+    everything = np.concatenate(unlike)
+    order = np.argsort(everything, kind="stable")
+    ts = everything[order]
+    local = np.concatenate([_local_sample_time(base) for base in unlike])[order]
+    is_new = np.ones(len(ts), bool)
+    is_new[1:] = np.diff(ts) >= SAME * np.minimum(local[1:], local[:-1])
+    rows = np.empty(len(ts), int)
+    rows[order] = np.cumsum(is_new) - 1
+    ends = np.cumsum([len(base) for base in unlike])[:-1]
+    rows_of = np.split(rows, ends)
+    merged = ts[is_new]
+    return merged, [rows_of[i] if len(rows_of[i]) < len(merged) else None for i in which]
+
+
+def on_rows(values: Float[np.ndarray, " n"], rows: Rows | None, length: int) -> Times:
+    """Samples at their rows of a union of ``length`` times, and NaN elsewhere."""
+    if rows is None:
+        return values
+    column = np.full(length, np.nan)
+    column[rows] = values
+    return column
+
+
+def _unlike(bases: Sequence[Times]) -> tuple[list[Times], list[int]]:
+    """The bases that differ, and by base which of them it is."""
+    unlike: list[Times] = []
+    which: list[int] = []
+    for base in bases:
+        places = (i for i, u in enumerate(unlike) if u is base or np.array_equal(u, base))
+        place = next(places, len(unlike))
+        unlike += [base] if place == len(unlike) else []
+        which.append(place)
+    return unlike, which
+
+
+def _local_sample_time(ts: Times) -> Times:
+    """The shorter of the two intervals beside each time."""
+    steps = np.diff(ts)
+    return np.minimum(np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]]))

@@ -90,7 +90,8 @@ class Data(ByName, Formats):
         missing: Missing = "refuse",
         mask: Mapping[str, ArrayLike] | None = None,
     ) -> None:
-        units = check_units(units_said(signals) if units is None else units)
+        said = units_said(signals) if units is None else units
+        units = None if said is None else check_units(said)
         unit_of_time = (units or {}).get("time", "s")
         ts, columns, missing = columns_of(time, signals, missing, mask, unit_of_time)
         ts = convert(ts, unit_of_time, "s", "'time'")

@@ -65,7 +65,7 @@ def check_samples(
     *,
     missing: bool = False,
     place: Place = sample,
-    mend: str = LEAVE_OUT,
+    remedy: str = LEAVE_OUT,
 ) -> None:
     """Refuse samples of another length than their time base, or that are not finite real numbers.
 
@@ -75,7 +75,7 @@ def check_samples(
         what: names them in the error.
         missing: whether NaN is a missing sample; then some sample must exist.
         place: names a sample in the error.
-        mend: of a NaN.
+        remedy: of a NaN.
     """
     if not is_real(values):
         raise DataError(f"{what} holds {_kind(values)}; real numbers are needed.")
@@ -90,7 +90,7 @@ def check_samples(
         count = int(np.count_nonzero(bad))
         more = f" and {count - 1} more" if count > 1 else ""
         raise DataError(
-            f"{what} is {samples[i]} at {place(i)}{more}; {mend if np.isnan(samples[i]) else LEAVE_OUT}."
+            f"{what} is {samples[i]} at {place(i)}{more}; {remedy if np.isnan(samples[i]) else LEAVE_OUT}."
         )
     if missing and len(samples) and bool(np.isnan(samples).all()):
         raise DataError(f"{what} is missing at all times; leave it out.")

@@ -329,12 +329,12 @@ def _between(low: Array, t: Array, high: Array) -> Array:
 
 def _no_derivative(name: str, interpolation: str, times: int) -> str:
     enough = [f"'{kind}'" for kind, count in DERIVATIVES.items() if count >= times]
-    mend = (
+    remedy = (
         f"choose interpolation={' or '.join(enough)}, or give the derivative"
         if enough
         else "give the derivative"
     )
     return (
         f"'{name}' has the interpolation '{interpolation}', which has no useful "
-        f"{ORDINALS[min(times, len(ORDINALS)) - 1]} derivative; {mend} as measured."
+        f"{ORDINALS[min(times, len(ORDINALS)) - 1]} derivative; {remedy} as measured."
     )

@@ -8,5 +8,5 @@ from acausal.drawing.diagram import (
     Diagram as Diagram,
     diagram as diagram,
     diagram_svg as diagram_svg,
+    place as place,
 )
-from acausal.drawing.place import place as place

@@ -53,11 +53,11 @@ def _with_open(placed: PlacedBox) -> PlacedBox:
         and (port.kind == "input" or (port.kind == "connector" and not drawn.icon.frame))
         and (port.kind == "input" or placed.side(number) in ("left", "right"))
     ]
-    crowd = [placed.side(number) for number in (*taken, *waiting)]
+    sides = [placed.side(number) for number in (*taken, *waiting)]
     places = {
         number: drawn.icon.places.get(drawn.ports[number].name, 0.0)
         for number in waiting
-        if crowd.count(placed.side(number)) == 1 or drawn.ports[number].name in drawn.icon.places
+        if sides.count(placed.side(number)) == 1 or drawn.ports[number].name in drawn.icon.places
     }
     right, down = -1 if placed.facing.mirrored else 1, -1 if placed.facing.flipped else 1
     ports = {

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import pairwise
 from typing import Literal
 
 from acausal.drawing.crossings import Point as Point, crossings, shared
 from acausal.drawing.facing import Facing
 from acausal.drawing.scheme import Box, Net
-from acausal.drawing.sizes import FONT, LINE, SMALL, label_of, text_width
+from acausal.drawing.sizes import FONT, LINE, SMALL, label_of
 from acausal.modeling import Side
 
 
@@ -65,13 +65,6 @@ class Label:
     point: Point
     anchor: Literal["start", "middle", "end"] = "middle"
     size: float = FONT
-
-    @property
-    def rect(self) -> Rect:
-        """About what it covers."""
-        (x, y), width = self.point, text_width(self.words, self.size)
-        left = x - {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor] * width
-        return Rect.between(left, left + width, y - 0.75 * self.size, y + 0.2 * self.size)
 
 
 @dataclass(frozen=True)
@@ -198,18 +191,6 @@ class Placed:
             for a, b in pairwise(line)
         )
 
-    @property
-    def covered(self) -> list[tuple[str, str]]:
-        """Labels that a wire, a picture or another label touches: each with a name of what does."""
-        return [pair for level in self.levels() for pair in _covered(level)]
-
-    def overlaps(self) -> Iterator[tuple[str, str]]:
-        """Paths of boxes that overlap."""
-        for level in self.levels():
-            for a, b in combinations(level.boxes, 2):
-                if a.rect.overlaps(b.rect):
-                    yield a.box.path, b.box.path
-
 
 BESIDE = 6.0
 """A wire that is so near to a picture looks as if it belonged to it, in pixels."""
@@ -229,16 +210,3 @@ def _around(a: Point, b: Point) -> Rect:
     """What a piece of a wire covers, and what is beside it."""
     (left, right), (top, bottom) = (sorted(ends) for ends in zip(a, b, strict=True))
     return Rect.between(left - BESIDE, right + BESIDE, top - BESIDE, bottom + BESIDE)
-
-
-def _covered(level: Placed) -> Iterator[tuple[str, str]]:
-    labels = [(box.box.path, box.label.rect) for box in level.boxes if box.label is not None]
-    wires = [
-        (" ".join(net.net.names), Rect.between(min(a[0], b[0]), max(a[0], b[0]), min(a[1], b[1]), max(a[1], b[1])))
-        for net in level.nets for line in net.lines for a, b in pairwise(line)
-    ]  # fmt: skip
-    pictures = [(box.box.path, box.icon) for box in level.boxes if box.inner is None]
-    for i, (path, label) in enumerate(labels):
-        for name, other in (*labels[i + 1 :], *wires, *pictures):
-            if label.overlaps(other):
-                yield path, name

@@ -62,7 +62,7 @@ def color_of(declared: Declaration | Connector) -> str:
     return KINDS.get(getattr(declared, "kind", "real"), SIGNAL)
 
 
-def joined(name: str, elements: int) -> str:
+def port_of_element(name: str, elements: int) -> str:
     """The name of the port that an element of a vector belongs to."""
     return name if elements <= FEW else name.partition("[")[0]
 

@@ -38,7 +38,6 @@ from acausal.events.zero_crossings import (
     due as due,
     guards as guards,
     guards_and_rates as guards_and_rates,
-    holds as holds,
     jumped as jumped,
     updated as updated,
 )

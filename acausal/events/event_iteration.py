@@ -18,7 +18,7 @@ from acausal.events.event_formulas import Events
 from acausal.events.zero_crossings import guards, holds, jumped, updated
 
 PASSES = 20
-"""At an event everything is found anew at most so often: what has changed may be the cause of another event."""
+"""At an event everything is computed again at most so often: what has changed may be the cause of another event."""
 
 ALL_AT_ONCE = 30
 """So often all conditions are changed at once that do not agree with the values; after that one by one.

@@ -15,7 +15,6 @@ from acausal.errors import DataError, shown
 from acausal.events import before_events
 from acausal.export.c_text.code import write_code
 from acausal.export.c_text.header import header
-from acausal.export.c_text.reserved import RESERVED
 from acausal.export.c_text.source import source
 from acausal.export.c_text.steps import scheme_named
 from acausal.export.c_text.target_text import target_header, target_source, target_text
@@ -28,6 +27,21 @@ from acausal.export.vector import ParameterVector
 from acausal.files import need_path, new_file, write_files
 from acausal.modeling import names_in
 from acausal.system import System
+
+_KEYWORDS = """auto break case char const continue default do double else enum extern float for goto if inline int long
+register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while main"""
+
+_MATH = """acos asin atan atan2 ceil cos cosh exp expm1 fabs floor fmax fmin fmod hypot isfinite isinf isnan log log1p
+nearbyint pow remainder round signbit sin sinh sqrt tan tanh tgamma lgamma erf erfc cbrt trunc real"""
+
+_OWN = """all_finite attempt came_true condition_rates conditions copy end_with_event equal excess factor fill_d fill_p
+fill_x find_due find_edge fire force iterate jacobian_column jumped look look_at_points lu_factor lu_solve maximum
+minimum next_length outputs rates recalibrate resets same signum solve_stage strict switched tangent ticks timed updated
+x u y p d t m h Model Status"""
+
+RESERVED = frozenset(f"{_KEYWORDS} {_MATH} {_OWN}".split())
+"""Words of C, of its mathematics, and of the functions in a model's file."""
+
 
 PRECISION = {"float64": "double", "float32": "float"}
 """Numbers of C by numbers of NumPy."""

@@ -6,15 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import jax
-import jax.numpy as jnp
 import numpy as np
-from jax import Array
 
-from acausal._jax import Equation, bind, name_of, need_double_precision, scan_of
+from acausal._jax import Equation, name_of, need_double_precision, scan_of
 from acausal.errors import DataError, need_package
 from acausal.export.target import target_of, traced
-from acausal.export.traced import SAME, walk
+from acausal.export.traced import places, subscripts, walk
 from acausal.system import System
 
 if TYPE_CHECKING:
@@ -102,8 +99,6 @@ class _Walk:
 
     def apply(self, equation: Equation, arguments: list[Known], origin: str) -> Sequence[Known]:
         name = name_of(equation)
-        if name in SAME:
-            return arguments
         if name in self.rules:
             rule = np.frompyfunc(self.rules[name](equation.params), len(arguments), 1)
             return [_symbols(rule(*map(_objects, arguments)))]
@@ -172,31 +167,16 @@ PICKS = frozenset({"dynamic_slice", "gather"})
 
 
 def _moved(equation: Equation, arguments: list[Known], count: int) -> list[Known]:
-    """What is moved is numbered, JAX moves the numbers, and each is replaced by what it stands for."""
+    """The elements of the first arguments, at other places."""
     moved = [_objects(a) for a in arguments[:count]]
-    ends = np.cumsum([a.size for a in moved])
     every = np.concatenate([a.ravel() for a in moved])
-    numbers: list[Array] = [
-        jnp.arange(end - a.size, end).reshape(a.shape) for a, end in zip(moved, ends, strict=True)
-    ]
-    with jax.ensure_compile_time_eval():
-        found = bind(equation, [*numbers, *map(jnp.asarray, arguments[count:])])
-    return [_symbols(every[np.asarray(places)]) for places in found]
+    found = places(equation, [*moved, *arguments[count:]], range(count))
+    return [_symbols(every[chosen]) for chosen in found]
 
 
 def _product(numbers: Any, a: np.ndarray, b: np.ndarray) -> Symbols:
     """The products of all pairs of rows, added up, as `jax.lax.dot_general` orders them."""
-    (own, others), (batch, other_batch) = numbers
-    letters = iter("abcdefghijklmnopqrstuvwxyz")
-    first, second = [next(letters) for _ in a.shape], [next(letters) for _ in b.shape]
-    for i, j in zip((*own, *batch), (*others, *other_batch), strict=True):
-        second[j] = first[i]
-    rest = [c for i, c in enumerate(first) if i not in (*own, *batch)]
-    rest += [c for j, c in enumerate(second) if j not in (*others, *other_batch)]
-    result = "".join([first[i] for i in batch] + rest)
-    return _symbols(
-        np.einsum(f"{''.join(first)},{''.join(second)}->{result}", a, b, optimize=False)
-    )
+    return _symbols(np.einsum(subscripts(numbers, (a.ndim, b.ndim)), a, b, optimize=False))
 
 
 Rule: TypeAlias = Callable[[Mapping[str, Any]], Callable[..., Any]]

@@ -147,7 +147,12 @@ def _content(
     """The FMU's files by their paths in it."""
     scalars, interface = fmi == "2.0", f"fmi{fmi[0]}"
     templates = package_files("acausal.export.fmu_text")
-    fixed = ("fmu_instance.h", f"{interface}_interface.h", f"{interface}_functions.c")
+    fixed = (
+        "fmu_instance.h",
+        "fmu_functions.h",
+        f"{interface}_interface.h",
+        f"{interface}_functions.c",
+    )
     sources = {f"{text.name}.h": header_in_c(text), f"{text.name}.c": source(text)}
     sources |= {file: templates.joinpath(file).read_text("utf-8") for file in fixed}
     compiled = (f"{text.name}.c", f"{interface}_functions.c")

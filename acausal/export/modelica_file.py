@@ -13,7 +13,7 @@ from acausal._jax import need_double_precision, need_known
 from acausal.errors import ModelError, need_flag, shown
 from acausal.export.needs import all_parameters
 from acausal.files import new_file, write_files
-from acausal.modeling import Component, InitialParameter
+from acausal.modeling import Component, InitialParameter, element_name
 from acausal.system import System, compile
 
 
@@ -106,7 +106,6 @@ def _with_values(system: System, given: Mapping[str, Any]) -> Component:
             shape = part._node.shape(base, part._node.declaration(base))  # pyright: ignore[reportArgumentType]
             whole = vectors[owner, base] = np.empty(shape or (), dtype=object)
             for place in np.ndindex(*(shape or ())):
-                key = f"{prefix}[{','.join(str(i + 1) for i in place)}]"
-                whole[place] = float(given.get(key, 0.0))
+                whole[place] = float(given.get(element_name(prefix, place), 0.0))
         part.modify(**{base: whole})
     return model

@@ -20,7 +20,7 @@ from acausal.files import new_file, write_files
 from acausal.modeling import names_in
 from acausal.system import System
 
-FORMS = (".mlir", ".mlirbc", ".jax")
+ENDINGS = (".mlir", ".mlirbc", ".jax")
 """Endings of files: StableHLO as text, as portable bytes, and with JAX's record of shapes and derivatives."""
 
 PLATFORMS = ("cpu", "cuda", "rocm", "tpu")
@@ -68,9 +68,9 @@ def stablehlo(
     need_double_precision()
     real = precision(dtype)
     file = new_file(path, "export.stablehlo", overwrite)
-    if file.suffix not in FORMS:
+    if file.suffix not in ENDINGS:
         raise DataError(
-            f"export.stablehlo: the ending '{file.suffix}' is no form; end the path in {', '.join(FORMS)}"
+            f"export.stablehlo: the ending '{file.suffix}' is no form; end the path in {', '.join(ENDINGS)}"
         )
     if file.suffix == ".jax":
         need_package("flatbuffers", "export.stablehlo", "export")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import string
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -35,7 +36,7 @@ def walk(
     kept: Container[str] = LOOPS,
     origin: str = "",
 ) -> list[Any]:
-    """The results of a jaxpr; calls are written out, and what is known already is computed now.
+    """The results of a jaxpr; calls are written out, `SAME` left out, and what is known already is computed now.
 
     Arguments:
         values: its arguments: arrays that are known, or anything else that `apply` knows and gives.
@@ -56,6 +57,8 @@ def walk(
         where = str(equation.source_info.name_stack) or origin
         if name in CALLS | WRITTEN_OUT:
             results = walk(called(equation), arguments, apply, kept=kept, origin=where)
+        elif name in SAME:
+            results = arguments
         elif name not in kept and _is_known(equation, arguments):
             with jax.ensure_compile_time_eval():
                 results = [np.asarray(r) for r in bind(equation, [*map(jnp.asarray, arguments)])]
@@ -71,6 +74,35 @@ def _is_known(equation: Equation, arguments: Sequence[Any]) -> bool:
     fixed = all(isinstance(n, int | np.integer) for shape in sizes for n in shape)
     few = fixed and max((math.prod(map(int, shape)) for shape in sizes), default=0) <= FOLDED
     return few and all(isinstance(a, np.ndarray) for a in arguments)
+
+
+def places(equation: Equation, arguments: Sequence[Any], moved: Iterable[int]) -> list[np.ndarray]:
+    """Which elements an operation gives that only moves them: it is applied to their numbers.
+
+    Arguments:
+        arguments: arrays; of those that are moved, only shapes count.
+        moved: which arguments those are; their elements are numbered one argument after the other.
+    """
+    numbers, count = list(arguments), 0
+    for k in moved:
+        shape = arguments[k].shape
+        numbers[k] = jnp.arange(count, count + math.prod(shape)).reshape(shape)
+        count += math.prod(shape)
+    with jax.ensure_compile_time_eval():
+        return [np.asarray(found) for found in bind(equation, [*map(jnp.asarray, numbers)])]
+
+
+def subscripts(numbers: Any, ranks: Iterable[int]) -> str:
+    """What `jax.lax.dot_general` adds up, as `numpy.einsum` has it, from its "dimension_numbers"."""
+    (left, right), (batch_left, batch_right) = numbers
+    letters = iter(string.ascii_letters)
+    one, two = ([next(letters) for _ in range(rank)] for rank in ranks)
+    for i, j in zip((*left, *batch_left), (*right, *batch_right), strict=True):
+        two[j] = one[i]
+    result = [one[i] for i in batch_left]
+    result += [c for i, c in enumerate(one) if i not in (*left, *batch_left)]
+    result += [c for j, c in enumerate(two) if j not in (*right, *batch_right)]
+    return f"{''.join(one)},{''.join(two)}->{''.join(result)}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,10 +196,10 @@ def kind_of(dtype: Any) -> str:
 
 def trace(function: Callable[..., Any], *arguments: Any) -> TracedBlock:
     """The operations of a function of arrays; what does not reach a result is left out."""
-    return block_of(jax.make_jaxpr(function)(*arguments))
+    return traced_block(jax.make_jaxpr(function)(*arguments))
 
 
-def block_of(closed: ClosedJaxpr) -> TracedBlock:
+def traced_block(closed: ClosedJaxpr) -> TracedBlock:
     """The operations of a closed jaxpr."""
     operations: list[TracedOperation] = []
     constants: dict[int, TracedConstant] = {}
@@ -178,8 +210,6 @@ def block_of(closed: ClosedJaxpr) -> TracedBlock:
 
     def apply(equation: Equation, arguments: list[Any], origin: str) -> Sequence[Any]:
         name = name_of(equation)
-        if name in SAME:
-            return arguments
         inputs, outputs = tuple(map(atom, arguments)), tuple(map(_value, equation.outvars))
         operations.append(TracedOperation(name, inputs, outputs, equation.params, origin))
         return outputs

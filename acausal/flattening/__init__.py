@@ -11,14 +11,14 @@ from acausal.flattening.equation_group import (
     EquationGroup as EquationGroup,
     GuardGroup as GuardGroup,
     UpdateGroup as UpdateGroup,
-    joined as joined,
+    join_groups as join_groups,
     specialised as specialised,
 )
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
 from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.leaves_caches import LeavesCaches as LeavesCaches
-from acausal.flattening.origin import Origin as Origin, Origins as Origins
+from acausal.flattening.origin import Origin as Origin
 from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,

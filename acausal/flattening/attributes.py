@@ -20,7 +20,15 @@ T = TypeVar("T", bound=np.generic)
 
 @dataclass(frozen=True)
 class VariableAttributes:
-    """Attributes of all variables, in the form of `FlatModel`."""
+    """Attributes of all variables.
+
+    Attributes:
+        start, fixed, nominal, state: (n_variables,); ``state`` counts from 0 "never" to 4 "always", plus 0.5 where the
+            model's author, not the library, set it.
+        tear: (n_variables,) how much they are preferred as tearing variables, from 0 "never" to 4 "always".
+        start_given: (n_variables,) whether a modifier gave the start.
+        starts: start values that are expressions of parameters.
+    """
 
     start: Numbers
     fixed: Flags

@@ -34,16 +34,14 @@ class EquationGroup:
     def __len__(self) -> int:
         return len(self.components)
 
+    @property
+    def columns(self) -> tuple[np.ndarray, ...]:
+        """All arrays, each with a row for every instance."""
+        return self.variables, self.parameters, self.modules, self.components, self.origins
+
     def rows(self, chosen: np.ndarray) -> EquationGroup:
         """The group restricted to some rows (a mask or indices)."""
-        return EquationGroup(
-            self.template,
-            self.variables[chosen],
-            self.parameters[chosen],
-            self.modules[chosen],
-            self.components[chosen],
-            self.origins[chosen],
-        )
+        return EquationGroup(self.template, *(column[chosen] for column in self.columns))
 
     def stated(self, rows: Iterable[int]) -> list[tuple[Origin, int]]:
         """Where some instances are stated: origin and component."""
@@ -54,16 +52,10 @@ class EquationGroup:
         return specialised(self.template, pattern, self.origins[0])
 
 
-def joined(groups: Sequence[EquationGroup]) -> EquationGroup:
+def join_groups(groups: Sequence[EquationGroup]) -> EquationGroup:
     """Groups of one template as one."""
-    return EquationGroup(
-        groups[0].template,
-        np.concatenate([g.variables for g in groups]),
-        np.concatenate([g.parameters for g in groups]),
-        np.concatenate([g.modules for g in groups]),
-        np.concatenate([g.components for g in groups]),
-        np.concatenate([g.origins for g in groups]),
-    )
+    columns = zip(*(g.columns for g in groups), strict=True)
+    return EquationGroup(groups[0].template, *map(np.concatenate, columns))
 
 
 def specialised(

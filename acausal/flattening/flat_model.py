@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.flattening.attributes import element, variable_attributes
-from acausal.flattening.bindings import Binding, parameter_aliases
+from acausal.flattening.attributes import VariableAttributes, element, variable_attributes
+from acausal.flattening.bindings import parameter_aliases
 from acausal.flattening.connections import (
     connection_groups,
     connection_sets,
@@ -19,18 +19,20 @@ from acausal.flattening.connections import (
 )
 from acausal.flattening.equation_group import EquationGroup, EventEquations
 from acausal.flattening.instances import instantiate
-from acausal.flattening.layout import Flags, Layout, Numbers, lay_out, tiled
+from acausal.flattening.layout import Layout, lay_out, tiled
 from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.silent import Silent
 from acausal.flattening.stated import Stated
 from acausal.flattening.template import Integers
-from acausal.flattening.values import module_values, parameter_values
+from acausal.flattening.values import ParameterValues, module_values, parameter_values
 from acausal.modeling import PYTHON, Budget, Component, Discrete, Input, spending
 
 
 @dataclass(frozen=True)
-class FlatModel(LeavesCaches):
+class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
     """A model without hierarchy: numbered variables, and equations as instances of templates.
+
+    The constants, which are numbers in equations, follow the values of parameters.
 
     Attributes:
         name: of the model: its class, or the title in its file.
@@ -38,14 +40,6 @@ class FlatModel(LeavesCaches):
         groups: all equations, including those of connections; ``initial``: equations at the initial time.
         events: what holds at events.
         inputs: indices of the variables that are the model's inputs.
-        start, fixed, nominal, state: (n_variables,) attributes; ``state`` counts from 0 "never" to 4 "always",
-            plus 0.5 where the model's author, not the library, set it.
-        tear: (n_variables,) how much they are preferred as tearing variables, from 0 "never" to 4 "always".
-        start_given: (n_variables,) whether a modifier gave the start.
-        starts: start values that are expressions of parameters.
-        value: (n_parameters,) values (nan where bound), then those of constants, which are numbers in equations;
-            ``bindings``: the bound ones.
-        folded: (n_parameters,) whether a parameter is left at a default of zero, or bound to such parameters only.
         given: discrete variables that are not found at events: inputs, and conditions that nothing else needs.
         module_values: value or factory of every module; an int refers to another module.
         outputs: output signals that nothing in the model takes.
@@ -58,16 +52,6 @@ class FlatModel(LeavesCaches):
     initial: tuple[EquationGroup, ...]
     events: EventEquations
     inputs: Integers
-    start: Numbers
-    fixed: Flags
-    nominal: Numbers
-    state: Numbers
-    tear: Integers
-    start_given: Flags
-    starts: tuple[Binding, ...]
-    value: Numbers
-    bindings: tuple[Binding, ...]
-    folded: Flags
     module_values: tuple[Callable[..., Any] | int, ...]
     silent: Mapping[str, Silent]
     given: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))

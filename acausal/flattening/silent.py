@@ -55,14 +55,14 @@ class Silent:
 
     def sentence(self, name: str) -> str:
         """What to say of the parameter, by its dotted name."""
-        mend = (
+        remedy = (
             "compile the model by ac.compile(model, events=True)"
             if self.asked
             else "write ac.where(..., events=True)"
         )
         return (
             f"The gradient by '{name}' is zero, as it acts through the condition {self.condition} alone, which is no "
-            f"event; {mend}."
+            f"event; {remedy}."
         )
 
 

@@ -24,7 +24,13 @@ from acausal.modeling import (
 
 @dataclass(frozen=True)
 class ParameterValues:
-    """Values of all parameters, in the form of `FlatModel`."""
+    """Values of all parameters.
+
+    Attributes:
+        value: (n_parameters,), nan where bound.
+        bindings: the bound ones.
+        folded: (n_parameters,) whether a parameter is left at a default of zero, or bound to such parameters only.
+    """
 
     value: Numbers
     bindings: tuple[Binding, ...]

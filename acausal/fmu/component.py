@@ -13,10 +13,9 @@ from acausal.fmu.archive import read
 from acausal.fmu.conversion import Conversion
 from acausal.fmu.description import REAL, Description, FMUVariable, read_description
 from acausal.fmu.fmu_view import as_html, as_text
-from acausal.fmu.function import FMUFunction
+from acausal.fmu.function import FMUFunction, evaluated, has_events
 from acausal.fmu.model_exchange import NEVER
 from acausal.fmu.part import Part
-from acausal.fmu.registry import evaluated, has_events
 from acausal.fmu.selection import Chosen, communication_step, interface, memory_size, name_of
 from acausal.modeling import (
     HALF,

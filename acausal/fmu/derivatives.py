@@ -71,12 +71,12 @@ class Differentiated:
         matrix[:] = 0.0
         with self.lock:
             first = np.zeros(height)
-            nudges = self.function(given.ctypes.data, first.ctypes.data)
+            shifts = self.function(given.ctypes.data, first.ctypes.data)
             done = self.fast(given, wanted, matrix)
             for column in wanted:
                 rows = slice(done.get(column, 0), height)
                 if rows.start < height:
-                    matrix[rows, column] = self.quotient(given, first, column, nudges)[rows]
+                    matrix[rows, column] = self.quotient(given, first, column, shifts)[rows]
 
     def second(self, at: int, into: int) -> None:
         """The derivatives of the Jacobian, from address to address."""
@@ -93,7 +93,7 @@ class Differentiated:
             found[:, :, column] = (there - first) / (given[column] - value)
             given[column] = value
 
-    def quotient(self, given: Numbers, first: Numbers, column: int, nudges: int) -> Numbers:
+    def quotient(self, given: Numbers, first: Numbers, column: int, shifts: int) -> Numbers:
         """The derivative by one argument: to the side on which an event need not be shifted farther."""
         value, step = given[column], STEP * max(self.scales[column], abs(given[column]))
         found: list[tuple[int, float, Numbers]] = []
@@ -103,7 +103,7 @@ class Differentiated:
                 there = np.zeros(len(first))
                 shifted = self.function(given.ctypes.data, there.ctypes.data)
                 found.append((shifted, given[column], there))
-            if found and found[0][0] <= nudges and not self.central:
+            if found and found[0][0] <= shifts and not self.central:
                 break
         given[column] = value
         if not found:

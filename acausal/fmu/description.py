@@ -7,10 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Integral
 from typing import Any, Literal
 
-from acausal.errors import DeclarationError, need_package, shortened, shown
+from acausal.errors import DeclarationError, need_package, need_whole, shortened
 from acausal.fmu.archive import DESCRIPTION, Folder
 from acausal.fmu.conversion import Conversion, conversion, definitions
 from acausal.modeling import element_names
@@ -168,12 +167,8 @@ def _resize(read: Any, values: Mapping[str, Any]) -> None:
     """Give arrays the sizes that follow from structural parameters; start values of others than these are not kept."""
     structural = {v.name: v for v in read.modelVariables if v.causality == STRUCTURAL}
     for name in structural.keys() & values.keys():
-        size = values[name]
-        if isinstance(size, bool) or not isinstance(size, Integral) or size < 0:
-            raise DeclarationError(
-                f"FMU: the structural parameter '{name}' of '{read.modelName}' is {shown(size)}; give a whole number."
-            )
-        structural[name].start = str(size)
+        what = f"FMU: of '{read.modelName}' the structural parameter {name}"
+        structural[name].start = str(need_whole(values[name], what, DeclarationError, 0))
     for v in read.modelVariables:
         shape = [int(d.variable.start if d.start is None else d.start) for d in v.dimensions]
         if tuple(shape) != v.shape:

@@ -54,7 +54,7 @@ class AfterEvent(NamedTuple):
     history: int
     next: float
     numbers: bytes
-    nudges: int
+    shifts: int
 
 
 class Histories:

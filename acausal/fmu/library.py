@@ -15,21 +15,12 @@ from acausal.fmu.description import Description, FMUVariable, Interface
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)
 BYTES = C.sizeof(C.c_double)
 
-KINDS: dict[str, tuple[str, Any]] = {
-    "Real": ("Real", C.c_double),
-    "Float64": ("Float64", C.c_double),
-    "Float32": ("Float32", C.c_float),
-    "Int8": ("Int8", C.c_int8),
-    "UInt8": ("UInt8", C.c_uint8),
-    "Int16": ("Int16", C.c_int16),
-    "UInt16": ("UInt16", C.c_uint16),
-    "Int32": ("Int32", C.c_int32),
-    "UInt32": ("UInt32", C.c_uint32),
-    "Int64": ("Int64", C.c_int64),
-    "UInt64": ("UInt64", C.c_uint64),
-    "Integer": ("Integer", C.c_int),
-}
-"""By type of FMI, the word in the names of its functions and the type in C."""
+KINDS: dict[str, Any] = {
+    "Real": C.c_double, "Float64": C.c_double, "Float32": C.c_float, "Integer": C.c_int,
+    "Int8": C.c_int8, "Int16": C.c_int16, "Int32": C.c_int32, "Int64": C.c_int64,
+    "UInt8": C.c_uint8, "UInt16": C.c_uint16, "UInt32": C.c_uint32, "UInt64": C.c_uint64,
+}  # fmt: skip
+"""The type in C by type of FMI, which is also the word in the names of its functions."""
 
 MESSAGES = 5
 """The last log messages of an FMU are kept for errors."""
@@ -75,7 +66,7 @@ def kind_of(version: str, name: str) -> tuple[str, Any]:
         return ("Boolean", C.c_int if version == "2.0" else C.c_bool)
     if name == "Enumeration":
         return ("Integer", C.c_int) if version == "2.0" else ("Int64", C.c_int64)
-    return KINDS[name]
+    return name, KINDS[name]
 
 
 _MESSAGES: dict[bytes, deque[str]] = {}

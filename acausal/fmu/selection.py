@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from numbers import Integral, Real
+from numbers import Real
 from typing import Any
 
-from acausal.errors import DeclarationError, nearest, shown
+from acausal.errors import DeclarationError, nearest, need_whole, shown
 from acausal.fmu.description import NUMBERS, REAL, STRUCTURAL, Description, FMUVariable, Interface
 
 
@@ -52,10 +52,7 @@ def memory_size(kind: Interface, memory: Any, *, open_loop: bool) -> int:
     Raises:
         DeclarationError: for what is no such number, or where it means nothing.
     """
-    if isinstance(memory, bool) or not isinstance(memory, Integral) or memory < 0:
-        raise DeclarationError(
-            f"FMU: memory={shown(memory)} must be a number of communication steps."
-        )
+    memory = need_whole(memory, "FMU: memory", DeclarationError, 0)
     if memory and (kind == "me" or open_loop):
         why = (
             "model exchange, which has gradients"
@@ -65,7 +62,7 @@ def memory_size(kind: Interface, memory: Any, *, open_loop: bool) -> int:
         raise DeclarationError(
             f"FMU: memory={memory} is for gradients through inputs of a co-simulation, not {why}."
         )
-    return int(memory)
+    return memory
 
 
 class Chosen:

@@ -24,7 +24,7 @@ from acausal.codegen import (
     compute,
     execute,
     formula_of,
-    joined,
+    join_formulas,
     rates,
     read,
     run,
@@ -175,7 +175,7 @@ class Conditions(LeavesCaches):
             for group in self.reduced.model.initial
         ]
         sizes = self.program.sizes * self._copies(formulas)
-        return joined(formulas, sizes, self.parameters.size)
+        return join_formulas(formulas, sizes, self.parameters.size)
 
     def _copies(self, formulas: Sequence[ArrayFormula | UnlikeFormulas]) -> int:
         """How many copies of the program's arrays formulas read."""

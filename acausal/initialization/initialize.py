@@ -28,7 +28,7 @@ from acausal.codegen import (
 from acausal.errors import DataError, InitializationError, listing, nearest, shown
 from acausal.flattening import LeavesCaches
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
-from acausal.modeling import ByName, names_in
+from acausal.modeling import ByName, by_name, names_in
 from acausal.structure import ReducedModel
 
 MAX_STEPS = 100
@@ -156,10 +156,7 @@ class Initializer(LeavesCaches):
         least_squares: bool = False,
     ) -> Initialization:
         """Initial states and how each was found; see `System.initialize`."""
-        x0 = {} if x0 is None else x0
-        if not isinstance(x0, Mapping):
-            raise DataError(f"x0={shown(x0)} has no names; give the states by name.")
-        x0 = self.by_state(x0)
+        x0 = self.by_state(by_name(x0, "x0", "the states by name"))
         at = Values(array(t0), self.conditions.starts(packed), u0, packed)
         x, plan, rest, jacobian = self._solution(at, x0, steady, least_squares)
         roles = [

@@ -11,8 +11,8 @@ import numpy as np
 import sympy as sp
 
 from acausal.modelica.classes import ClassNode
+from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.operators import Frame
-from acausal.modelica.overloading import Overloading
 from acausal.modelica.syntax import (
     Branches,
     Connect,
@@ -48,7 +48,7 @@ class Left(Exception):  # noqa: N818
     """``break`` or ``return``."""
 
 
-class Algorithms(Overloading):
+class Algorithms(Evaluator):
     """Executes the statements of algorithms.
 
     Attributes:
@@ -61,6 +61,10 @@ class Algorithms(Overloading):
     path: Any = True
     left: Any = False
     returned: Any = False
+
+    def inlined(self, node: ClassNode, call: FunctionCall) -> list[Any]:
+        """The results of a function."""
+        raise NotImplementedError
 
     def execute(self, statements: list[Statement], local: dict[str, Any]) -> None:
         """Execute statements; ``local`` holds the variables that they assign.

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, ClassVar, cast
 
-from acausal.errors import ModelError, nearest
+import numpy as np
+
+from acausal.errors import nearest
 from acausal.modelica import statements
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.connectors import connector
 from acausal.modelica.expandable import expand
-from acausal.modelica.form import note_form
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import make_part, modify_part
 from acausal.modelica.meanings import Native
@@ -20,7 +21,7 @@ from acausal.modelica.modifications import (
     Index,
     Modification,
     fields_of,
-    given_by,
+    given_in,
     modification,
     redeclared_class,
 )
@@ -28,12 +29,11 @@ from acausal.modelica.operators import Frame
 from acausal.modelica.outer import inner_of
 from acausal.modelica.overconstrained import ConnectionGraph, Edge
 from acausal.modelica.syntax import ClassDefinition, LiteralConstant, ModificationSyntax
-from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.types import Type, is_component, type_of_declared
 from acausal.modelica.values import ABSENT, Record, as_array, of
 from acausal.modelica.variables import declare
 from acausal.modelica.views import Entry
-from acausal.modeling import Component, Reference, charge
+from acausal.modeling import Component, Connector, Reference, charge, element_name
 
 MAX_DEPTH = 60
 
@@ -196,12 +196,7 @@ class Build:
         view = self.node.view()
         native = [
             *(g for g in self.given if g.name not in view.entries and g.name not in self.classes),
-            *(
-                g
-                for _, arguments in view.natives
-                for a, n in arguments
-                for g in given_by([a], self.frame(n))
-            ),
+            *(g for _, own in view.natives for g in given_in(own, self.frame)),
         ]
         if view.natives:
             make_part(type(self.component), native, base)
@@ -289,11 +284,8 @@ class Build:
             raise entry.wrong(f"{circle}: each depends on the next")
         self._making[name] = None
         try:
-            self._make(name, entry)
-        except ModelicaError:
-            raise
-        except ModelError as error:
-            raise entry.wrong(str(error)) from None
+            with entry.place():
+                self._make(name, entry)
         finally:
             self._making.pop(name, None)
         return self.member(name)
@@ -304,10 +296,7 @@ class Build:
             self.made[name] = inner_of(self, name, entry)
             if not declared.prefixes.inner:
                 return
-        given = [
-            *self.given,
-            *(g for a, n in entry.modifiers for g in given_by([a], self.frame(n))),
-        ]
+        given = [*self.given, *given_in(entry.modifiers, self.frame)]
         mod = modification(declared, given, frame)
         if declared.condition is not None:
             interpreter = Interpreter(frame)
@@ -318,8 +307,7 @@ class Build:
         if mod.redeclared is not None:
             declared, frame = mod.redeclared.redeclared, mod.redeclared.frame
         found = type_of_declared(frame, declared)
-        sizes = [(s, frame) for s in declared.subscripts or entry.declared.subscripts]
-        sizes += [(s, Frame(n)) for s, n in found.subscripts]
+        sizes = found.sizes(declared.subscripts or entry.declared.subscripts, frame)
         if found.predefined:
             declare(self, name, entry, found, mod, sizes)
         else:
@@ -332,8 +320,8 @@ class Build:
 
         What belongs to a connector, consists of several, or has a name that Python cannot use is kept here.
         """
-        try:
-            own = hasattr(type(self.component), name) and name not in self.component._declared
+        own = hasattr(type(self.component), name) and name not in self.component._declared
+        with entry.place():
             if _is_composite(value):
                 self.made[name] = value
             elif "." in name or name[0] == "'" or own:
@@ -345,10 +333,6 @@ class Build:
             else:
                 self.component._claim(name)
                 setattr(self.component, name, value)
-        except ModelicaError:
-            raise
-        except ModelError as error:
-            raise entry.wrong(str(error)) from None
 
     # -- parts -------------------------------------------------------------------------------------------
 
@@ -363,7 +347,7 @@ class Build:
                 return [nested((*index, (i, size))) for i in range(size)]
             inner = [g.element(index) for g in mod.inner]
             value = mod.value and mod.value.element(index)
-            part = self._part(element_name(name, index), entry, found, inner, value)
+            part = self._part(element_name(name, [i for i, _ in index]), entry, found, inner, value)
             if not index and isinstance(part, Component):
                 part._node.placement = entry.declared.placement
             return part
@@ -422,6 +406,29 @@ def _is_composite(value: Any) -> bool:
     return isinstance(value, Record) or (isinstance(value, list) and any(map(_is_composite, value)))
 
 
-def element_name(name: str, index: Index) -> str:
-    """The name of an element of a list of parts."""
-    return f"{name}[{','.join(str(i + 1) for i, _ in index)}]" if index else name
+def note_form(build: Any) -> None:
+    """Make all that decides the equations a constant, so that components with other equations have another form."""
+    constants = build.component._node.constants
+    for name, value in build.made.items():
+        constants[f"value of {name}"] = _plain(value)
+    constants["absent"] = tuple(sorted(build.absent))
+    constants["classes"] = tuple((n, str(id(c))) for n, c in build.classes.items())
+    constants["given inwards"] = tuple(str(id(a)) for a, _ in build.given_inwards)
+    constants["cut"] = tuple(edge.cut for edge in build.edges)
+    constants["decided"] = tuple(build.decided.items())
+    constants["bindings"] = tuple(
+        (name, str(id(bound.expression)), bound.index) for _, name, bound in build.bindings
+    )
+
+
+def _plain(value: Any) -> Any:
+    """A value as something that can be compared."""
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, Record):
+        return [(name, _plain(v)) for name, v in value.fields.items()]
+    if isinstance(value, list):
+        return [_plain(v) for v in value]
+    if isinstance(value, Connector | Reference):
+        return None
+    return value if isinstance(value, bool | int | float | str) else str(id(value))

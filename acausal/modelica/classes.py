@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal.errors import nearest
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import Imported, Native, Predefined, Prefix
+from acausal.modelica.meanings import PATH_HINT, Imported, Native, Predefined, Prefix, unknown_name
 from acausal.modelica.syntax import (
     ClassDefinition,
     Declared,
@@ -19,7 +19,6 @@ from acausal.modelica.syntax import (
     ModificationArgument,
 )
 from acausal.modelica.tokens import PREDEFINED, ModelicaError, Source, read_source
-from acausal.modelica.unknown import PATH_HINT, unknown_name
 from acausal.modelica.views import ClassView, Entry
 
 

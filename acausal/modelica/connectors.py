@@ -15,7 +15,7 @@ from acausal.modelica.modifications import (
     Bound,
     Given,
     Modification,
-    given_by,
+    given_in,
     modification,
     redeclared_class,
 )
@@ -25,7 +25,7 @@ from acausal.modelica.types import Type, attributes_of, is_overconstrained, type
 from acausal.modelica.values import Bus, Record, Redundant, attribute_of, of
 from acausal.modelica.variables import declare
 from acausal.modelica.views import Entry
-from acausal.modeling import Connector, Flow, Potential, Variable
+from acausal.modeling import Connector, Flow, Potential, Variable, element_name
 
 
 def connector(build: Any, name: str, found: Type, inner: list[Given]) -> Any:
@@ -59,7 +59,7 @@ def bus(build: Any, name: str, node: ClassNode, given: Sequence[Given] = ()) -> 
     found, known = Bus(build, name), dict[str, Any]()
     for word, entry in node.view().entries.items():
         frame, inner = Frame(entry.node, None, known), _type(entry).node
-        modifiers = [g for a, n in entry.modifiers for g in given_by([a], Frame(n, None, known))]
+        modifiers = given_in(entry.modifiers, lambda n: Frame(n, None, known))
         mod = modification(entry.declared, [*given, *modifiers], frame)
         if entry.declared.prefixes.variability and mod.value is not None:
             known[word] = mod.value.value()
@@ -72,7 +72,7 @@ def bus(build: Any, name: str, node: ClassNode, given: Sequence[Given] = ()) -> 
             continue
         elements = np.empty(sizes, dtype=object)
         for place in np.ndindex(*sizes):
-            element = f"{word}[{','.join(str(i + 1) for i in place)}]"
+            element = element_name(word, place)
             elements[place] = bus(build, f"{name}.{element}", inner, mod.inner)
             found.fields[element] = elements[place]
         found.arrays[word] = elements.tolist()
@@ -103,11 +103,10 @@ def _composite(build: Any, name: str, whole: Type, node: ClassNode, given: list[
     others = [(n, e) for n, e in entries.items() if n not in plain]
     for word, entry in sorted(others, key=lambda item: not item[1].declared.prefixes.variability):
         frame, path = Frame(entry.node, None, fields), f"{name}.{word}"
-        modifiers = [g for a, n in entry.modifiers for g in given_by([a], Frame(n, None, fields))]
+        modifiers = given_in(entry.modifiers, lambda n: Frame(n, None, fields))
         mod = modification(entry.declared, [*given, *modifiers], frame)
         found = _part_of(whole, entry, mod, frame)
-        sizes = [(s, frame) for s in entry.declared.subscripts]
-        sizes += [(s, Frame(n)) for s, n in found.subscripts]
+        sizes = found.sizes(entry.declared.subscripts, frame)
         if found.predefined:
             known = found.causality or entry.declared.prefixes.variability or found.native
             if not (known or found.overconstrained):
@@ -208,15 +207,11 @@ def _variable(entry: Entry, known: dict[str, Any], connection: str = "") -> Vari
     prefixes = declared.prefixes
     if prefixes.connection == "stream":
         raise entry.wrong("a stream variable in a connector is not supported")
-    given = [g for a, n in entry.modifiers for g in given_by([a], Frame(n))]
-    mod = modification(declared, given, frame)
+    mod = modification(declared, given_in(entry.modifiers, Frame), frame)
     if mod.redeclared is not None:
         declared, frame = mod.redeclared.redeclared, mod.redeclared.frame
     found = type_of_declared(frame, declared)
-    sizes = [
-        *((s, frame) for s in declared.subscripts),
-        *((s, Frame(n)) for s, n in found.subscripts),
-    ]
+    sizes = found.sizes(declared.subscripts, frame)
     shape = tuple(Interpreter(f).size(s) for s, f in sizes)
     stated = attributes_of(found, mod.inner)
     unit = stated.get("unit", "")

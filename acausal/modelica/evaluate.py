@@ -42,12 +42,9 @@ from acausal.modelica.values import (
     is_array,
     mapped,
     of,
+    shape_of,
 )
-from acausal.modeling import (
-    check_size,
-    floor,
-    time,
-)
+from acausal.modeling import check_size, floor, time
 
 
 class Evaluator(Operators):
@@ -180,7 +177,7 @@ class Evaluator(Operators):
             return value.element(index)
         if not is_array(value):
             raise self.wrong("this is not an array; it takes no subscripts")
-        shape = np.shape(_shape(value))
+        shape = shape_of(value)
         return self._selected(value, shape, self.places(shape, subscripts, changing=True))
 
     def _selected(self, value: Any, shape: tuple[int, ...], places: list[Any]) -> Any:
@@ -401,17 +398,6 @@ def literals(node: ClassNode) -> list[Literal]:
     for number, one in enumerate(found, start=1):
         one.number, one.among = number, found
     return found
-
-
-def _shape(value: Any) -> Any:
-    """Something of the shape of a list of parts."""
-    if isinstance(value, np.ndarray):
-        return value
-    sizes: list[int] = []
-    while isinstance(value, list | tuple):
-        sizes.append(len(value))
-        value = value[0] if value else None
-    return np.empty(sizes)
 
 
 def _pick(value: Any, places: list[Any]) -> Any:

@@ -1,11 +1,12 @@
-"""Functions: those of the language, those of libraries, and a user's own, which are inlined."""
+"""Functions: of the language, of libraries, a user's own, which are inlined; and the operators of records by them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from acausal.modelica.language import SPECIAL
 from acausal.modelica.meanings import Native, Predefined, Value
 from acausal.modelica.operators import MAX_CALLS, Frame
 from acausal.modelica.syntax import (
+    ClassDefinition,
     DottedName,
     Expression,
     FunctionCall,
@@ -30,6 +32,7 @@ from acausal.modelica.values import (
     as_record,
     each,
     elements,
+    is_record,
     with_fields,
 )
 from acausal.modelica.views import Entry
@@ -127,7 +130,8 @@ class Interpreter(Algorithms):
         """The result of a function that is an argument; itself where it is passed on."""
         if call.partial:
             return function
-        names = [n for n in _inputs(function.node) if n not in function.named]
+        inputs = function.node.view().of_causality("input")
+        names = [n for n in inputs if n not in function.named]
         if len(call.arguments) > len(names):
             raise self.wrong(f"'{call.function.text}' takes {len(names)} arguments here")
         given = dict(zip(names, call.arguments, strict=False)) | call.named
@@ -225,8 +229,7 @@ class Interpreter(Algorithms):
                     length,
                 )
             return [self._of_library(plain, external, given, {})]
-        inputs = _inputs(node)
-        outputs = [n for n, e in view.entries.items() if e.declared.prefixes.causality == "output"]
+        inputs, outputs = view.of_causality("input"), view.of_causality("output")
         if len(call.arguments) > len(inputs):
             raise self.wrong(
                 f"{definition.name} takes {len(inputs)} arguments, not {len(call.arguments)}",
@@ -274,20 +277,18 @@ class Interpreter(Algorithms):
         self, node: ClassNode, call: FunctionCall, values: dict[str, Any], arrays: list[str]
     ) -> list[Any]:
         """The results for arrays in the place of scalars: arrays, too (Modelica 3.6, section 12.4.6)."""
-        shapes = {np.shape(values[n]) for n in arrays}
-        if len(shapes) > 1:
-            sizes = " and ".join(str(list(s)) for s in sorted(shapes))
-            raise self.wrong(f"arrays of sizes {sizes} do not fit")
-        (shape,) = shapes
-        found: list[list[Any]] = []
-        for place in np.ndindex(*shape):
+
+        def one(*elements: Any) -> list[Any]:
+            given = {**values, **dict(zip(arrays, elements, strict=True))}
             named: dict[str, Expression] = {
-                n: LiteralConstant(v[place] if n in arrays else v, call.at)
-                for n, v in values.items()
+                n: LiteralConstant(v, call.at) for n, v in given.items()
             }
-            found.append(self.inlined(node, FunctionCall(call.function, [], named, call.at)))
+            return self.inlined(node, FunctionCall(call.function, [], named, call.at))
+
+        found = each(one, *(values[n] for n in arrays))
         return [
-            array_of(list(r)).reshape((*shape, *np.shape(r[0]))) for r in zip(*found, strict=True)
+            array_of(list(r)).reshape((*found.shape, *np.shape(r[0])))
+            for r in zip(*found.flat, strict=True)
         ]
 
     def empty(self, entry: Entry) -> Any:
@@ -304,11 +305,95 @@ class Interpreter(Algorithms):
         check_size(int(np.prod(shape)), "the array")
         return np.empty(shape, dtype=object)
 
+    # -- operators of records (Modelica 3.6, chapter 14) -----------------------------------------------
 
-def _inputs(node: ClassNode) -> list[str]:
-    """The arguments of a function, in order."""
-    entries = node.view().entries.items()
-    return [n for n, e in entries if e.declared.prefixes.causality == "input"]
+    def overloaded(self, operator: str, *values: Any) -> Any:
+        """An operator of which an operand is a record, or an array of records.
+
+        Raises:
+            ModelicaError: where the record's class has no such operator.
+        """
+        sign = operator.removeprefix(".")
+        if operator == "*" and all(isinstance(v, np.ndarray) for v in values):
+            return self._dot(*values)
+        return each(lambda *scalars: self._operator(sign, scalars), *values)
+
+    def constructed(self, node: ClassNode, given: list[Any], named: dict[str, Any]) -> Any:
+        """A record of these arguments: by a constructor of its own that takes them, else by its fields."""
+        function = self._of_class(node, "constructor", given, named)
+        if function is None:
+            return self.record_of(node, given, named)
+        return self._called(function, given, named)
+
+    def _operator(self, sign: str, values: Sequence[Any]) -> Any:
+        node: ClassNode = next(v.node for v in values if isinstance(v, Record))
+        for given in (list(values), [self._made(node, v) for v in values]):
+            function = self._of_class(node, f"'{sign}'", given, {})
+            if function is not None:
+                return self._called(function, given, {})
+        raise self.wrong(f"'{node.full}' has no operator '{sign}' for {len(values)} operand(s)")
+
+    def _dot(self, left: Any, right: Any) -> Any:
+        """The product of arrays; that of two vectors by the function that takes them, if there is one."""
+        node: ClassNode = next(v.node for v in (*left.flat, *right.flat) if isinstance(v, Record))
+        if left.ndim == right.ndim == 1:
+            given = [each(lambda v: self._made(node, v), vector) for vector in (left, right)]
+            function = self._of_class(node, "'*'", given, {})
+            if function is not None:
+                return self._called(function, given, {})
+        self.need_factors(left, right)
+        rows = left.reshape(-1, left.shape[-1])
+        columns = right.reshape(right.shape[0], -1).T
+        found = [
+            self._sum([self._applied("*", a, b) for a, b in zip(row, column, strict=True)])
+            for row in rows
+            for column in columns
+        ]
+        shape = (*left.shape[:-1], *right.shape[1:])
+        return array_of(found).reshape(shape) if shape else found[0]
+
+    def _sum(self, values: Sequence[Any]) -> Any:
+        return reduce(lambda a, b: self._applied("+", a, b), values)
+
+    def _made(self, node: ClassNode, value: Any) -> Any:
+        """A number as a record, where a constructor takes one; others as they are."""
+        function = None if is_record(value) else self._of_class(node, "constructor", [value], {})
+        return value if function is None else self._called(function, [value], {})
+
+    def _of_class(
+        self, node: ClassNode, word: str, given: Sequence[Any], named: dict[str, Any]
+    ) -> ClassNode | None:
+        """The function of a record's operator that takes these arguments."""
+        found = node.member(word)
+        if not isinstance(found, ClassNode):
+            return None
+        inner = [e.name for e in found.definition.elements if isinstance(e, ClassDefinition)]
+        members = [found] if found.definition.kind == "function" else map(found.own, inner)
+        for function in members:
+            entries = function.view().entries
+            inputs = {n: entries[n].declared for n in function.view().of_causality("input")}
+            needed = [d for d in list(inputs.values())[len(given) :] if d.modifier.value is None]
+            fits = len(given) + len(named) <= len(inputs) and named.keys() <= inputs.keys()
+            shapes = all(
+                len(d.subscripts) == np.ndim(v) and self._takes(function, d.type, v)
+                for v, d in zip(given, inputs.values(), strict=False)
+            )
+            if fits and shapes and all(d.name in named for d in needed):
+                return function
+        return None
+
+    def _takes(self, function: ClassNode, name: DottedName, value: Any) -> bool:
+        """Whether an input of a type takes a value: a record for a record, a number for a number."""
+        found, _ = Frame(function).find(name.words)
+        return (isinstance(found, ClassNode) and found.definition.kind == "record") is is_record(
+            value
+        )
+
+    def _called(self, function: ClassNode, given: Sequence[Any], named: dict[str, Any]) -> Any:
+        arguments: list[Expression] = [LiteralConstant(v, self.at) for v in given]
+        more: dict[str, Expression] = {k: LiteralConstant(v, self.at) for k, v in named.items()}
+        name = DottedName((function.definition.name,), {}, self.at)
+        return self.inlined(function, FunctionCall(name, arguments, more, self.at))[0]
 
 
 def _dimensions(entry: Entry) -> float:

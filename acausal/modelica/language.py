@@ -23,6 +23,7 @@ from acausal.modelica.values import (
     is_array,
     is_end,
     is_record,
+    shape_of,
     type_of,
 )
 from acausal.modeling import change, check_size, der, edge, initial, owner_and_name, pre, sample
@@ -133,12 +134,7 @@ def _reduction(name: str) -> Callable[[Evaluator, FunctionCall], Any]:
 
 def _size(self: Evaluator, call: FunctionCall) -> Any:
     value, *which = self.arguments(call, 1, 2)
-    shape: list[int] = []
-    while isinstance(value, list | tuple) and value:
-        shape.append(len(value))
-        value = value[0]
-    if isinstance(value, np.ndarray):
-        shape += value.shape
+    shape = shape_of(value)
     if not which:
         return array_of(shape)
     index = self.whole(which[0], "a dimension")

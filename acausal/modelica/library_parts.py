@@ -14,7 +14,7 @@ from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Given, Modification
 from acausal.modelica.syntax import ArrayConstructor
 from acausal.modelica.values import nested, of
-from acausal.modeling import Component, Eq, Option, Variable, check_nested
+from acausal.modeling import Component, Eq, Option, Variable, check_nested, element_name
 from acausal.netlist import NetlistError, Scope, is_structural, make, modify
 
 
@@ -105,8 +105,7 @@ def _element_values(name: str, variable: Any, raw: Any) -> Iterator[tuple[str, A
         yield name, raw
         return
     for place in np.ndindex(variable.shape):
-        element = f"{name}[{','.join(str(i + 1) for i in place)}]"
-        yield element, {k: _at(v, place) for k, v in raw.items()}
+        yield element_name(name, place), {k: _at(v, place) for k, v in raw.items()}
 
 
 def _at(value: Any, place: tuple[int, ...]) -> Any:

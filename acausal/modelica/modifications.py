@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -133,6 +133,14 @@ def given_by(
             )
         )
     return found
+
+
+def given_in(
+    modifiers: Iterable[tuple[ModificationArgument, ClassNode]],
+    frame: Callable[[ClassNode], Frame],
+) -> list[Given]:
+    """The same of modifiers with the class in which each stands."""
+    return [given for argument, node in modifiers for given in given_by([argument], frame(node))]
 
 
 def modification(declared: Declared, given: Sequence[Given], frame: Frame) -> Modification:

@@ -138,11 +138,14 @@ class Operators(Arithmetic):
         sign = operator.lstrip(".")
         return each(lambda a, b: self.arithmetic(sign, a, b), first, second)
 
-    def _product(self, a: Any, b: Any) -> Any:
+    def need_factors(self, a: Any, b: Any) -> None:
+        """Refuse arrays of sizes that have no product."""
         if a.shape[-1] != b.shape[0]:
-            raise self.wrong(
-                f"arrays of sizes {list(a.shape)} and {list(b.shape)} cannot be multiplied"
-            )
+            sizes = f"{list(a.shape)} and {list(b.shape)}"
+            raise self.wrong(f"arrays of sizes {sizes} cannot be multiplied")
+
+    def _product(self, a: Any, b: Any) -> Any:
+        self.need_factors(a, b)
         check_size(a.size * (b.shape[1] if b.ndim > 1 else 1), "the product")
         if not a.shape[-1]:
             return np.zeros((*a.shape[:-1], *b.shape[1:]), dtype=object)[()]

@@ -14,12 +14,11 @@ from acausal.modelica.build import class_of
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.connectors import connector_class
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.meanings import Native, Value
+from acausal.modelica.meanings import PATH_HINT, Native, Value
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import ClassDefinition
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.tree import Tree
-from acausal.modelica.unknown import PATH_HINT
 
 
 class ModelicaPackage:

@@ -10,7 +10,7 @@ from acausal.errors import nearest
 from acausal.modelica.algorithms import REFUSED
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.meanings import Native, Predefined, Prefix, Value, refused_package
-from acausal.modelica.modifications import Bound, Given, given_by
+from acausal.modelica.modifications import Bound, Given, given_in
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Declared, Expression, ModificationArgument
 from acausal.modeling import Component, Connector, Input, Output
@@ -50,6 +50,12 @@ class Type:
     record: Any = None
     overconstrained: ClassNode | None = None
     full: str = ""
+
+    def sizes(
+        self, subscripts: Sequence[Expression], frame: Frame
+    ) -> list[tuple[Expression, Frame]]:
+        """Those of a component with these subscripts, and then its type's, each with where it stands."""
+        return [*((s, frame) for s in subscripts), *((s, Frame(n)) for s, n in self.subscripts)]
 
     @property
     def is_connector(self) -> bool:
@@ -141,7 +147,7 @@ def attributes_of(found: Type, inner: Sequence[Given]) -> dict[str, Any]:
         ModelicaError: for what is not an attribute.
     """
     stated: dict[str, Any] = {}
-    of_type = [g for a, n in found.arguments for g in given_by([a], Frame(n))]
+    of_type = given_in(found.arguments, Frame)
     for one in (*inner, *of_type):
         if one.name not in (*ATTRIBUTES, *IGNORED):
             raise one.wrong(

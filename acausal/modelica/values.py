@@ -133,6 +133,15 @@ def array_of(items: Sequence[Any]) -> np.ndarray[Any, Any]:
     return found
 
 
+def shape_of(value: Any) -> tuple[int, ...]:
+    """The sizes of an array, or of a list of parts."""
+    sizes: list[int] = []
+    while isinstance(value, list | tuple):
+        sizes.append(len(cast(Sequence[Any], value)))
+        value = cast(Sequence[Any], value)[0] if value else None
+    return (*sizes, *(value.shape if isinstance(value, np.ndarray) else ()))
+
+
 def identity(n: int) -> np.ndarray[Any, Any]:
     """The identity matrix."""
     return array_of([[int(i == j) for j in range(n)] for i in range(n)])

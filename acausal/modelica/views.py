@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
+from acausal.errors import ModelError
 from acausal.modelica.meanings import Native, Predefined
 from acausal.modelica.syntax import (
     ClassDefinition,
@@ -49,6 +51,16 @@ class Entry:
         own = self.declared.modifier.arguments
         return next((a.modifier.value for a in own if a.name == "start"), None), self.node
 
+    @contextmanager
+    def place(self) -> Generator[None]:
+        """Meanwhile an error about the model is one at its declaration."""
+        try:
+            yield
+        except ModelicaError:
+            raise
+        except ModelError as error:
+            raise self.wrong(str(error)) from None
+
     def wrong(self, reason: str) -> ModelicaError:
         """The error at its declaration."""
         return self.node.wrong(self.declared.at, reason, len(self.declared.name))
@@ -79,6 +91,10 @@ class ClassView:
     subscripts: list[tuple[Any, Place]] = field(default_factory=list)
     causality: str = ""
     connection: str = ""
+
+    def of_causality(self, word: str) -> list[str]:
+        """Names of the inputs or outputs, in order."""
+        return [n for n, e in self.entries.items() if e.declared.prefixes.causality == word]
 
     def within(self, scope: Callable[[Place], Place]) -> ClassView:
         """The same, with names looked up elsewhere."""

@@ -34,6 +34,7 @@ from acausal.modeling.declarations import (
     Potential as Potential,
     Start as Start,
     Variable as Variable,
+    element_name as element_name,
     element_names as element_names,
 )
 from acausal.modeling.documentation import (
@@ -69,6 +70,7 @@ from acausal.modeling.functions import (
     COMPUTABLE as COMPUTABLE,
     Abs as Abs,
     Atan2 as Atan2,
+    Floored as Floored,
     Prescribed as Prescribed,
     acos as acos,
     asin as asin,
@@ -90,15 +92,14 @@ from acausal.modeling.functions import (
     tan as tan,
     tanh as tanh,
 )
-from acausal.modeling.icon import Icon as Icon, Side as Side
+from acausal.modeling.icon import Icon as Icon, Placement as Placement, Shape as Shape, Side as Side
 from acausal.modeling.names import (
     ByName as ByName,
     Name as Name,
+    by_name as by_name,
     names_in as names_in,
     names_matching as names_matching,
 )
-from acausal.modeling.placement import Placement as Placement
-from acausal.modeling.shape import Shape as Shape
 from acausal.modeling.summary import value_text as value_text
 from acausal.modeling.symbols import (
     Eq as Eq,
@@ -111,4 +112,3 @@ from acausal.modeling.symbols import (
     references as references,
     time as time,
 )
-from acausal.modeling.whole import Floored as Floored

@@ -11,18 +11,17 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 from acausal.errors import ConnectionError, DeclarationError, nearest
 from acausal.modeling.budget import charge
 from acausal.modeling.connector import Connector, check_name
-from acausal.modeling.declarations import Declaration
+from acausal.modeling.declarations import Declaration, element_name
 from acausal.modeling.documentation import (
     DocumentationOf,
     SignatureOf,
     check_positional,
 )
 from acausal.modeling.endpoints import Endpoint, check_lengths, check_pair, is_vector
-from acausal.modeling.icon import Icon
+from acausal.modeling.icon import Icon, Shape
 from acausal.modeling.modifiers import record_modifier
 from acausal.modeling.node import Node
 from acausal.modeling.replacing import replace_part
-from acausal.modeling.shape import Shape
 from acausal.modeling.summary import summary
 from acausal.modeling.symbols import Eq
 
@@ -187,12 +186,12 @@ class Component:
             object.__setattr__(self, name, self._add_all(name, value))
         else:
             if name not in self._node.constants:
-                self._claim(name, anew=hasattr(Component, name))
+                self._claim(name, is_new=hasattr(Component, name))
             self._node.constants[name] = value
             object.__setattr__(self, name, value)
 
-    def _claim(self, name: str, anew: bool = True) -> None:
-        """Make sure that a name is free; unless ``anew``, it may be that of a default of the class."""
+    def _claim(self, name: str, is_new: bool = True) -> None:
+        """Make sure that a name is free; unless ``is_new``, it may be that of a default of the class."""
         if not name.isidentifier():
             raise DeclarationError(
                 f"'{name}' is not a name for a part: letters, digits and underscores only"
@@ -203,7 +202,7 @@ class Component:
             raise DeclarationError(
                 f"{self._node.label} has a '{name}' already; choose another name"
             )
-        if anew and hasattr(type(self), name):
+        if is_new and hasattr(type(self), name):
             stated = name in ("equations", "initial_equations")
             raise DeclarationError(
                 f"'{name}' is an attribute of class {type(self).__name__}; "
@@ -217,11 +216,11 @@ class Component:
     def _add_all(self, name: str, parts: Sequence[Any], *index: int) -> list[Any]:
         """Parts of a list, and of lists in it, named as Modelica does: ``parts[1]``, ``parts[2,1]``."""
         added: list[Any] = []
-        for i, part in enumerate(parts, start=1):
+        for i, part in enumerate(parts):
             if isinstance(part, list | tuple):
                 added.append(self._add_all(name, cast(Sequence[Any], part), *index, i))
             else:
-                added.append(self._add(f"{name}[{','.join(map(str, (*index, i)))}]", part))
+                added.append(self._add(element_name(name, (*index, i)), part))
         return added
 
     def _add(self, name: str, part: Component | Connector | Declaration) -> Any:

@@ -5,14 +5,14 @@ A declaration is a class attribute. Read on an instance it becomes a reference (
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
 from acausal.errors import DeclarationError, shown
-from acausal.modeling.stated import call_text
+from acausal.modeling.written import call_text
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
 STATE_SELECT: tuple[StateSelect, ...] = ("never", "avoid", "default", "prefer", "always")
@@ -277,8 +277,12 @@ class Module(Declaration):
         self.default, self.takes, self.data = default, takes, data
 
 
+def element_name(name: str, index: Iterable[int]) -> str:
+    """The name of an element as in Modelica, ``A[1,2]``, by its place counted from 0; of a scalar its own name."""
+    numbers = ",".join(str(i + 1) for i in index)
+    return f"{name}[{numbers}]" if numbers else name
+
+
 def element_names(name: str, shape: tuple[int, ...] | None) -> list[str]:
-    """Names of a variable's elements as in Modelica, ``y[1]``, ``A[1,2]``; of a scalar its own name."""
-    if shape is None:
-        return [name]
-    return [f"{name}[{','.join(str(i + 1) for i in index)}]" for index in np.ndindex(*shape)]
+    """Names of a variable's elements, row by row."""
+    return [element_name(name, index) for index in np.ndindex(*(shape or ()))]

@@ -24,7 +24,7 @@ from acausal.modeling.declarations import (
     Start,
     Variable,
 )
-from acausal.modeling.stated import default_text
+from acausal.modeling.written import default_text
 
 
 class Plug(Protocol):

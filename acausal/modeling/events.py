@@ -13,8 +13,8 @@ import sympy as sp
 from sympy.logic.boolalg import Boolean, BooleanAtom, BooleanFunction
 
 from acausal.errors import DeclarationError, shown
+from acausal.modeling.functions import Floored, floor
 from acausal.modeling.symbols import HALF, Compared, Eq, Reference, number_or_expression
-from acausal.modeling.whole import Floored, floor
 
 INITIAL = sp.Symbol("initial()", real=True)
 """1 while initial values are being found, else 0."""

@@ -1,4 +1,4 @@
-"""Icons: how a class of components looks in a diagram."""
+"""How components look: icons and places in a diagram, and shapes where a mechanism is animated."""
 
 from __future__ import annotations
 
@@ -81,3 +81,73 @@ class Icon:
                 raise DeclarationError(
                     f"an icon's side of '{name}' is left, right, top or bottom, got {shown(side)}"
                 )
+
+
+@dataclass(frozen=True)
+class Shape:
+    """An outline that moves with a component; a class yields its own from the method ``shapes``.
+
+    All but the path are numbers, or expressions of the component's own variables and parameters.
+
+    Attributes:
+        path: SVG path data; x points right, y up, and ``size`` is the unit.
+        x, y: where the origin of the path is in the world [m].
+        phi: by which angle it is turned, counter-clockwise [rad].
+        size: units of the path along its own x and y [m]; None for that of a mark, such as a pin, that is drawn as
+            large as it can be recognized.
+        extent: least x and y of the path, and greatest ones, in its units.
+        filled: whether it is an area.
+        traced: whether the way of its origin can be shown.
+
+    Raises:
+        DeclarationError: for path data that has anything but commands and numbers.
+    """
+
+    path: str
+    x: Any
+    y: Any
+    phi: Any = 0.0
+    size: tuple[Any, Any] = (None, None)
+    extent: tuple[float, float, float, float] = (-1.0, -1.0, 1.0, 1.0)
+    filled: bool = False
+    traced: bool = False
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.path, str) or not PATH.fullmatch(self.path):
+            raise DeclarationError(
+                f"a shape's path is SVG path data such as 'M0 0H1', got {shown(self.path)}"
+            )
+
+
+TURNS = (0, 90, 180, 270)
+
+
+@dataclass(frozen=True)
+class Placement:
+    """The place of a part, in the units of Modelica's diagrams: a component is 20 wide, and y points upwards.
+
+    Attributes:
+        x, y: of its middle.
+        turned: by how many degrees, counter-clockwise: 0, 90, 180 or 270.
+        mirrored: whether left and right are exchanged, before it is turned.
+
+    Raises:
+        DeclarationError: for what is no number, and for another angle.
+    """
+
+    x: float
+    y: float
+    turned: int = 0
+    mirrored: bool = False
+
+    def __post_init__(self) -> None:
+        for name, value in (("x", self.x), ("y", self.y)):
+            given: Any = value
+            if isinstance(given, bool) or not isinstance(given, int | float) or abs(given) > 1e6:
+                raise DeclarationError(f"a placement's {name} is a number, got {shown(given)}")
+        if self.turned not in TURNS or isinstance(self.turned, bool):
+            raise DeclarationError(
+                f"a placement is turned by 0, 90, 180 or 270 degrees, got {shown(self.turned)}"
+            )
+        if not isinstance(self.mirrored, bool):
+            raise DeclarationError(f"a placement's mirrored is a bool, got {shown(self.mirrored)}")

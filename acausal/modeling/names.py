@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from acausal.errors import DataError, nearest, shown
@@ -129,6 +129,20 @@ def words_below(name: str, known: Iterable[str]) -> list[str]:
     """The next words of the names below a dotted one, each once."""
     below = (n[len(name) + 1 :] for n in known if n.startswith(f"{name}."))
     return list(dict.fromkeys(re.split(r"[.\[(]", rest)[0] for rest in below))
+
+
+def by_name(given: Any, argument: str, example: str) -> dict[str, Any]:
+    """What is given by name, the names as Python's own texts; nothing for None.
+
+    Arguments:
+        given: what the user gave. argument: what that is called. example: what to give instead, for the message.
+
+    Raises:
+        DataError: for what has no names.
+    """
+    if not isinstance(given, Mapping | None):
+        raise DataError(f"{argument}={shown(given)} has no names; give {example}.")
+    return {name: given[name] for name in names_in(given, argument)} if given is not None else {}
 
 
 def names_in(given: Any, argument: str = "") -> tuple[str, ...]:

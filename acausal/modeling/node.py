@@ -17,7 +17,7 @@ from acausal.errors import DeclarationError, nearest, shown
 from acausal.modeling.budget import Budget, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import Declaration, Module, Option, Parameter
-from acausal.modeling.placement import Placement
+from acausal.modeling.icon import Placement
 from acausal.modeling.symbols import Eq, ModuleReference, Owner, Reference, elements
 
 Endpoint = Connector | Reference

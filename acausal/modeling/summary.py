@@ -9,7 +9,7 @@ from acausal.errors import shortened
 from acausal.modeling.declarations import Module, Option, Parameter, Variable
 from acausal.modeling.documentation import CONNECTORS, DEFAULT_WIDTH, Declared, sections
 from acausal.modeling.node import Node
-from acausal.modeling.stated import default_text
+from acausal.modeling.written import default_text
 
 MOST = 8
 """Names in a line of a summary."""

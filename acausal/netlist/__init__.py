@@ -27,4 +27,4 @@ from acausal.netlist.vocabulary import (
     CONSTANTS as CONSTANTS,
     function as function,
 )
-from acausal.netlist.writer import Writer as Writer
+from acausal.netlist.writer import Writer as Writer, lies_within as lies_within

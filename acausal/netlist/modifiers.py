@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from inspect import signature
 from typing import Any, cast, get_args
 
-from acausal.errors import DeclarationError, nearest, shortened
+from acausal.errors import DeclarationError, is_whole, nearest, shortened
 from acausal.modeling import (
     Component,
     Connector,
@@ -37,7 +37,7 @@ def is_count(cls: Any, key: str) -> bool:
     """Whether a number given for that modifier says how many of something a part has: it is a whole number."""
     declared = cls._declared.get(key)
     if isinstance(declared, Option):
-        return isinstance(declared.default, int) and not isinstance(declared.default, bool)
+        return is_whole(declared.default)
     kind = signature(cls.__init__).parameters.get(key)
     return kind is not None and int in (kind.annotation, *get_args(kind.annotation))
 

@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import shortened
+from acausal.errors import is_whole, shortened
 from acausal.modeling import (
     STATE_SELECT,
     Eq,
@@ -136,8 +136,8 @@ def _option_value(option: Option, value: Any, where: str) -> Any:
         return [_option_value(option, v, where) for v in cast(list[Any], value)]
     if isinstance(value, sp.Expr):
         value = evaluated(value, where, {})
-    whole = isinstance(option.default, int) and not isinstance(option.default, bool)
-    return int(value) if whole and isinstance(value, float) and value.is_integer() else value
+    is_integer = isinstance(value, float) and value.is_integer()
+    return int(value) if is_integer and is_whole(option.default) else value
 
 
 def evaluated(expression: sp.Expr, where: str, values: dict[Any, Any]) -> float:

@@ -108,7 +108,7 @@ class Writer:
         if not isinstance(declared, Parameter):
             return self._json(model, model._node.constants[name], name)
         value = model._node.modifiers.get(name, declared.default)
-        if not _is_within(
+        if not lies_within(
             model, value
         ):  # given from outside: it is written with the enclosing model
             value = declared.default
@@ -178,7 +178,7 @@ class Writer:
             changed = {
                 key: self._json(model, value, f"{part._node.label}.{key}")
                 for key, value in part._node.modifiers.items()
-                if not _is_within(part, value)
+                if not lies_within(part, value)
             }
         else:
             self._class(type(part), part._node.label)
@@ -374,10 +374,10 @@ def _path(model: Component, end: Any, where: str) -> str:
     return ".".join((*route, local))
 
 
-def _is_within(model: Component, value: Any) -> bool:
+def lies_within(model: Component, value: Any) -> bool:
     """Whether all references of a value lie within a model."""
     if isinstance(value, list | tuple | np.ndarray):
-        return all(_is_within(model, v) for v in cast(Sequence[Any], value))
+        return all(lies_within(model, v) for v in cast(Sequence[Any], value))
     if not isinstance(value, sp.Expr):
         return True
     return all(r.owner.route_from(model._node) is not None for r in references(value))
@@ -398,7 +398,7 @@ def _is_own(part: Component, value: Any) -> bool:
 def _comparable(root: Component, value: Any) -> Any:
     """A value with names in the place of references, so that the values of equal parts are equal."""
     match value:
-        case sp.Expr() if _is_within(root, value):
+        case sp.Expr() if lies_within(root, value):
             names = {r: sp.Symbol(_path(root, r, "")) for r in references(value)}
             return value.xreplace(names)
         case list() | tuple() | np.ndarray():

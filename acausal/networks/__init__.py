@@ -8,15 +8,7 @@ In: scales and promises. Out: equinox modules.
 It knows no model.
 """
 
-from acausal.networks.activations import ACTIVATIONS as ACTIVATIONS
-from acausal.networks.arity import check_inputs as check_inputs
-from acausal.networks.energy_parts import (
-    BesideQuadratic as BesideQuadratic,
-    Bowl as Bowl,
-    FromRest as FromRest,
-    Levelled as Levelled,
-    WithMinCurvature as WithMinCurvature,
-)
+from acausal.networks.energy_parts import BesideQuadratic as BesideQuadratic
 from acausal.networks.energy_spec import Energy as Energy
 from acausal.networks.extrapolation import (
     Continued as Continued,
@@ -39,19 +31,13 @@ from acausal.networks.in_params import (
 from acausal.networks.law_parts import (
     BesideLinear as BesideLinear,
     Between as Between,
-    DryFrictionFactor as DryFrictionFactor,
     Even as Even,
-    Odd as Odd,
     OffsetCorrected as OffsetCorrected,
     Passive as Passive,
     Positive as Positive,
-    SameSign as SameSign,
-    ThroughZero as ThroughZero,
-    WithMinSlope as WithMinSlope,
 )
 from acausal.networks.law_spec import Law as Law
-from acausal.networks.mlp import MLP as MLP
-from acausal.networks.monotone_and_convex import Convex as Convex, Monotone as Monotone
+from acausal.networks.mlp import MLP as MLP, check_inputs as check_inputs
 from acausal.networks.promises import (
     bounds_of as bounds_of,
     kept_promises as kept_promises,

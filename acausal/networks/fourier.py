@@ -9,7 +9,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import is_number
 from acausal.errors import DeclarationError, need_whole, shown
-from acausal.networks.arity import check_inputs
+from acausal.networks.mlp import check_inputs
 
 
 class Fourier(eqx.Module):

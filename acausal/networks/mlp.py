@@ -12,11 +12,10 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import as_key, is_number, traced
+from acausal._jax import as_key, is_number, is_real, traced
 from acausal.errors import DeclarationError, need_whole, shown
 from acausal.modeling import charge
 from acausal.networks.activations import ACTIVATIONS, checked
-from acausal.networks.arity import check_inputs
 
 LARGEST = 10_000
 """Neurons in a layer, or layers: more are a mistake, and fill the memory."""
@@ -180,3 +179,25 @@ def scaled(inputs: Sequence[ArrayLike], scale: Scale) -> Array:
     """Inputs over their scales, side by side; in the inputs' own precision."""
     stacked = jnp.stack([jnp.asarray(x) for x in inputs])
     return stacked / (jnp.asarray(scale, stacked.dtype) if isinstance(scale, tuple) else scale)
+
+
+def check_inputs(network: object, inputs: Sequence[ArrayLike], expected: int) -> None:
+    """Check that a network is called with as many scalars as it has inputs.
+
+    Raises:
+        DeclarationError: if it is not.
+    """
+    name, wanted = type(network).__name__, f"{expected} input{'s' * (expected != 1)}"
+    if len(inputs) != expected:
+        remedy = "give the others, too" if len(inputs) < expected else "leave out the others"
+        raise DeclarationError(
+            f"{name}: a network of {wanted} is called with {len(inputs)}; {remedy}"
+        )
+    for x in inputs:
+        if not is_real(x):
+            raise DeclarationError(f"{name}: a network takes real numbers, not {shown(x)}.")
+    shapes = [shape for x in inputs if (shape := jnp.shape(x))]
+    if shapes:
+        raise DeclarationError(
+            f"{name}: a network takes scalars, not an array of shape {shapes[0]}; use jax.vmap(network)"
+        )

@@ -13,9 +13,8 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal._jax import compiled
-from acausal.networks.arity import check_inputs
 from acausal.networks.law_parts import WithFactor
-from acausal.networks.mlp import Scale, scaled
+from acausal.networks.mlp import Scale, check_inputs, scaled
 
 REACH = 1e6
 """A law is constant further than this from zero, in input scales, so that no input makes it overflow."""

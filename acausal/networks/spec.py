@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal, TypedDict, get_args
 
-import numpy as np
-
+from acausal._jax import is_number
 from acausal.errors import DeclarationError, need_whole, shown
 from acausal.networks.extrapolation import Extrapolation, check_limits
 from acausal.networks.mlp import Key, Scale, check_sizes
@@ -27,10 +26,6 @@ class Layers(TypedDict):
 
 KNOWN = 3.0
 """Without limits, the data are assumed to reach this many input scales from zero."""
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float | np.number) and bool(np.isfinite(value))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,12 +78,12 @@ class NetworkSpec:
         inner, outer = self.scales
         check_sizes(self.in_size, self.width, self.depth, inner, outer)
         for name, value in (("floor", self.floor), ("start", self.start)):
-            if not (_is_number(value) and value >= 0):
+            if not (is_number(value) and value >= 0):
                 raise DeclarationError(
                     f"{name}={value} is a derivative of an increasing law; give zero or more"
                 )
         limits = self.limits if isinstance(self.limits, tuple) else (self.limits,) * 2
-        if self.limits is not None and not (len(limits) == 2 and all(map(_is_number, limits))):
+        if self.limits is not None and not (len(limits) == 2 and all(map(is_number, limits))):
             raise DeclarationError(
                 f"limits={shown(self.limits)}; give a number for both sides, or a pair of numbers"
             )

@@ -19,7 +19,7 @@ from acausal.codegen import StateJacobian, Values
 from acausal.data import Signal, deviation_from_line
 from acausal.simulation.inputs import TimeFunction
 from acausal.simulation.log import Log
-from acausal.simulation.newton import FIXED, Fields, NewtonMatrix, Rates, fixed_tolerances
+from acausal.simulation.newton import FIXED, Fields, Rates, fixed_tolerances
 from acausal.simulation.sampled_inputs import Samples
 from acausal.simulation.solvers import EXPLICIT, Scheme
 from acausal.simulation.stages import ImplicitScheme, stages
@@ -383,7 +383,7 @@ def _explicit(tableau: Tableau) -> Stepper:
 
 def _implicit(tableau: Tableau, jacobian: StateJacobian, dtype: Any) -> Stepper:
     """A step whose stages are solved for; it and its derivatives are NaN where these have no solution."""
-    scheme = ImplicitScheme(tableau, NewtonMatrix(jacobian), fixed_tolerances(dtype), FIXED)
+    scheme = ImplicitScheme(tableau, jacobian, fixed_tolerances(dtype), FIXED)
 
     def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
         found = stages(scheme, Fields(field, args), h, x, None)

@@ -59,28 +59,24 @@ class HostFunction(eqx.Module):
         Raises:
             DataError: for what is not a real number.
         """
-        return _value(self.function, self.name, t)
-
-
-def _value(function: Callable[[float], Any], name: str, t: float) -> float:
-    found = function(t)
-    if not isinstance(found, float) and (not is_real(found) or np.ndim(found)):
-        raise DataError(
-            f"Input '{name}' is a function that returns {shown(found)} at {t:g} s, not a real number."
-        )
-    return float(found)
+        found = self.function(t)
+        if not isinstance(found, float) and (not is_real(found) or np.ndim(found)):
+            raise DataError(
+                f"Input '{self.name}' is a function that returns {shown(found)} at {t:g} s, not a real number."
+            )
+        return float(found)
 
 
 @cache
 def _number(host: HostFunction) -> int:
     """The number by which compiled programs call it."""
-    function, name, number = host.function, host.name, c_double.from_address
+    number = c_double.from_address
 
     def call(at: int, into: int) -> None:
         try:
-            number(into).value = _value(function, name, number(at).value)
+            number(into).value = host.value(number(at).value)
         except Exception as error:  # of a user's code
-            raise HostError(f"Input '{name}': {type(error).__name__}: {error}") from None
+            raise HostError(f"Input '{host.name}': {type(error).__name__}: {error}") from None
 
     return register_host(call)
 

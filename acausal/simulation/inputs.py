@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import equinox as eqx
 import jax
@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import array, compiled, is_real, traced
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
-from acausal.modeling import names_in
+from acausal.modeling import by_name
 from acausal.simulation.host_function import on_host
 
 if TYPE_CHECKING:
@@ -100,18 +100,12 @@ def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
     Raises:
         DataError: for what has no names.
     """
-    if given is None:
-        return {}
     if isinstance(given, Data) or is_data_frame(given):
         record = Data.of(given)
         known = {form for name in system.inputs for form in _antiderivatives(name)}
         return record.select([n for n in record.signals if n in known]).for_system(system)
-    if not isinstance(given, Mapping):
-        first = system.inputs[0] if system.inputs else "name"
-        raise DataError(
-            f"inputs={_short(given)} has no names; give inputs={{'{first}': ...}}, with {FORMS} for each."
-        )
-    return {name: given[name] for name in names_in(given, "inputs")}
+    first = system.inputs[0] if system.inputs else "name"
+    return by_name(given, "inputs", f"inputs={{'{first}': ...}}, with {FORMS} for each")
 
 
 def functions_of_time(
@@ -323,20 +317,10 @@ def _evaluate_all(
     return jax.vmap(lambda t: evaluate(functions, t))(t)
 
 
-class Breaks(NamedTuple):
-    """Times within a run at which adaptive steps end.
-
-    Attributes:
-        ts: increasing, in seconds.
-        jumps: at which of them an input jumps; at the others the slope of one does.
-    """
-
-    ts: Float[np.ndarray, " n_breaks"]
-    jumps: Bool[np.ndarray, " n_breaks"]
-
-
-def breaks(functions: tuple[TimeFunction, ...], start: float, end: float) -> Breaks:
-    """Times between ``start`` and ``end`` at which an input is known to jump, or to have a kink.
+def breaks(
+    functions: tuple[TimeFunction, ...], start: float, end: float
+) -> tuple[Float[np.ndarray, " n_breaks"], Bool[np.ndarray, " n_breaks"]]:
+    """Times between ``start`` and ``end`` at which an input is known to jump, or to have a kink; and which jump.
 
     Of lines between more than `KINKS` samples, none: steps that end at each would take longer than those that an
     estimate of their error chooses.
@@ -347,7 +331,7 @@ def breaks(functions: tuple[TimeFunction, ...], start: float, end: float) -> Bre
     if len(bent) > KINKS:
         bent = bent[:0]
     ts = np.union1d(jumping, bent)
-    return Breaks(ts, np.isin(ts, jumping))
+    return ts, np.isin(ts, jumping)
 
 
 def _all_samples(signal: Signal) -> Float[np.ndarray, " n"]:

@@ -40,35 +40,6 @@ STAGE_STEPS = 100
 """Newton steps allowed in each of them: there is no shorter step to try instead."""
 
 
-class NewtonMatrix(eqx.Module):
-    """The matrix ``I - c J`` by the pattern of a model's Jacobian: made at a point, factorized, and solved with.
-
-    Attributes:
-        jacobian: of the model.
-    """
-
-    jacobian: StateJacobian = eqx.field(static=True)
-
-    def empty(self, x: State) -> Any:
-        """Factors of the identity, in place of those that are not known yet."""
-        return self._factorized(jnp.zeros(self.jacobian.n_entries, x.dtype), jnp.zeros((), x.dtype))
-
-    def renewed(self, rates: Rates, x: State, c: Array) -> Any:
-        """The factors at a point."""
-        return self._factorized(self.jacobian.entries(rates, x), c)
-
-    def solve(self, factors: Any, b: State) -> State:
-        """``x`` with ``(I - c J) x = b``."""
-        return self.jacobian.iteration_matrix.solve(factors, b)
-
-    def solve_transposed(self, factors: Any, b: State) -> State:
-        """The same with the transposed matrix."""
-        return self.jacobian.iteration_matrix.solve_transposed(factors, b)
-
-    def _factorized(self, entries: Array, c: Array) -> Any:
-        return self.jacobian.iteration_matrix.factorize(entries, c)
-
-
 class Tolerances(eqx.Module):
     """What counts as small: relative and absolute tolerances of the states."""
 
@@ -91,7 +62,7 @@ class Patience(NamedTuple):
     Attributes:
         most: corrections at most. diverges: the ratio of two corrections from which on it is given up.
         renews: whether the matrix is renewed where corrections shrink slowly.
-        damps: whether it begins anew with shorter corrections where it fails.
+        damps: whether it begins again with shorter corrections where it fails.
     """
 
     most: int
@@ -172,7 +143,7 @@ class Equation(eqx.Module):
 
 def solve(
     equation: Equation,
-    matrix: NewtonMatrix,
+    jacobian: StateJacobian,
     factors: Any,
     guess: State,
     tolerances: Tolerances,
@@ -184,7 +155,7 @@ def solve(
 
     Arguments:
         equation: what to solve.
-        matrix, factors: those to begin with.
+        jacobian: of the model. factors: of the matrix ``I - c J``, to begin with.
         guess: where to begin.
         tolerances: of the state. left: the part of them that may remain as error.
         patience: when to stop.
@@ -196,9 +167,9 @@ def solve(
     def correct(n: Newton) -> Newton:
         own = factors
         if patience.renews:
-            again = lambda: matrix.renewed(equation.rates, n.x, equation.c)  # noqa: E731
+            again = lambda: jacobian.factorized(equation.rates, n.x, equation.c)  # noqa: E731
             own = lax.cond(n.slow, again, lambda: n.factors)
-        correction = scale * matrix.solve(own, equation.residual(n.x))
+        correction = scale * jacobian.iteration_matrix.solve(own, equation.residual(n.x))
         x = n.x - correction
         size = tolerances.size(correction, equation.before, x)
         ratio, later, made = size / n.size, n.made > 0, n.made + 1
@@ -216,33 +187,34 @@ def solve(
     begun = Newton(guess, kept, one, one, no, none, none, no, no)
     found = lax.while_loop(lambda n: ~(n.done | n.failed), correct, begun)
     if patience.damps:
-        again = lambda: _damped(equation, matrix, tolerances, left, found)  # noqa: E731
+        again = lambda: _damped(equation, jacobian, tolerances, left, found)  # noqa: E731
         found = lax.cond(found.failed, again, lambda: found)
-    return found._replace(x=_root(found.x, matrix, whole))
+    return found._replace(x=_root(found.x, jacobian, whole))
 
 
 @eqx.filter_custom_jvp
-def _root(found: State, matrix: NewtonMatrix, equation: Equation) -> State:
+def _root(found: State, jacobian: StateJacobian, equation: Equation) -> State:
     """A solution that is found already."""
     return found
 
 
 @_root.def_jvp
 def _(primals: Any, tangents: Any) -> tuple[State, State]:
-    matrix, equation = primals[1:]
+    jacobian, equation = primals[1:]
     x = _root(*primals)
     _, change = eqx.filter_jvp(lambda e: e.residual(x), (equation,), (tangents[2],))
-    return x, -matrix.solve(matrix.renewed(equation.rates, x, equation.c), change)
+    factors = jacobian.factorized(equation.rates, x, equation.c)
+    return x, -jacobian.iteration_matrix.solve(factors, change)
 
 
 def _damped(
     equation: Equation,
-    matrix: NewtonMatrix,
+    jacobian: StateJacobian,
     tolerances: Tolerances,
     left: Array | float,
     found: Newton,
 ) -> Newton:
-    """Begin anew with derivatives of zero; each correction is halved until less is left of the equation."""
+    """Begin again with derivatives of zero; each correction is halved until less is left of the equation."""
 
     def remaining(x: State) -> tuple[State, Array]:
         residual = equation.residual(x)
@@ -250,8 +222,8 @@ def _damped(
 
     def correct(state: tuple[Newton, State, Array]) -> tuple[Newton, State, Array]:
         n, residual, remains = state
-        factors = matrix.renewed(equation.rates, n.x, equation.c)
-        whole = matrix.solve(factors, residual)
+        factors = jacobian.factorized(equation.rates, n.x, equation.c)
+        whole = jacobian.iteration_matrix.solve(factors, residual)
 
         def shorter(trial: Any) -> Any:
             share = trial[0] / 2

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.typing import ArrayLike
@@ -17,6 +16,7 @@ from acausal.errors import SimulationError
 from acausal.events import COINCIDE, Events, guards
 from acausal.simulation.finite import explain_ahead
 from acausal.simulation.inputs import TimeFunction, evaluate
+from acausal.simulation.stability import modes
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -93,10 +93,11 @@ class Run(NamedTuple):
         nothing = np.zeros(0, complex)
         if traced(self.start, self.inputs) or not 0 < len(self.start.x) <= EIGENVALUES:
             return nothing
-        jacobian = np.asarray(_jacobian(self.system, self.start))
-        if not np.isfinite(jacobian).all():
-            return nothing
-        return np.linalg.eigvals(jacobian).astype(complex)
+        t = np.reshape(self.start.t, 1)
+        found = modes(
+            self.system, self.start._replace(t=t, x=self.start.x[None], u=self.start.u[None])
+        )
+        return nothing if found is None else found[0]
 
     @property
     def limits(self) -> Float[np.ndarray, " n_states"]:
@@ -184,8 +185,3 @@ def _periods(clocks: Events, at: Values) -> Float[Array, " n_clocks"]:
     """How long after a tick each clock ticks again."""
     assert at.d is not None
     return guards(clocks, at) - guards(clocks, at._replace(d=at.d + 1))
-
-
-@compiled
-def _jacobian(system: System, at: Values) -> Float[Array, "n_states n_states"]:
-    return jax.jacfwd(lambda x: system.rates(at._replace(x=x)))(at.x)

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal._jax import is_number
 from acausal.errors import AcausalError, DataError, nearest, need_compiled, need_package, shown
-from acausal.modeling import names_in
+from acausal.modeling import by_name, names_in
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
 
@@ -60,7 +60,7 @@ def sliders(
     inputs: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> Any:
-    """Sliders that simulate a model again when they are moved, with a plot that follows. Nothing is compiled anew.
+    """Sliders that simulate a model again when they are moved, with a plot that follows. Nothing is compiled again.
 
     Arguments:
         system: a compiled model.
@@ -86,8 +86,7 @@ def sliders(
         )
     widgets = need_package("ipywidgets", "sliders", "notebook", AcausalError)
     for argument, given in (("params", params), ("inputs", inputs)):
-        if not isinstance(given, Mapping | None):
-            raise DataError(f"{argument}={shown(given)} have no names; give values by name.")
+        by_name(given, argument, "values by name")
     moved = Moved(
         system, ranges_of(system, ranges, params), t, show, params or {}, inputs or {}, options
     )

@@ -11,11 +11,11 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import without_derivatives
+from acausal.codegen import StateJacobian
 from acausal.simulation.newton import (
     KAPPA,
     Equation,
     Fields,
-    NewtonMatrix,
     Patience,
     State,
     Tolerances,
@@ -25,10 +25,10 @@ from acausal.simulation.tableau import Tableau
 
 
 class ImplicitScheme(eqx.Module):
-    """How stages are found: by a tableau, with a matrix, to tolerances."""
+    """How stages are found: by a tableau, with a Jacobian, to tolerances."""
 
     tableau: Tableau = eqx.field(static=True)
-    matrix: NewtonMatrix
+    jacobian: StateJacobian = eqx.field(static=True)
     tolerances: Tolerances
     patience: Patience = eqx.field(static=True)
 
@@ -61,7 +61,7 @@ def stages(
     scheme: ImplicitScheme, fields: Fields, h: Array, x: State, first: State | None
 ) -> Stages:
     """The stages of a step of length h from x; ``first`` is the derivative there, if it is known."""
-    tableau, matrix = scheme.tableau, scheme.matrix
+    tableau, jacobian = scheme.tableau, scheme.jacobian
     rows = _rows(tableau, x.dtype)
     increments = jnp.zeros((len(tableau.rows), *x.shape), x.dtype)
     if not tableau.diagonal[0]:
@@ -75,14 +75,14 @@ def stages(
         known = x + row.weights @ increments
         equation = Equation(fields, row.fraction, row.own * h, known, x)
         how = scheme.tolerances, KAPPA, scheme.patience
-        found = solve(equation, matrix, factors, guess(row, increments), *how)
+        found = solve(equation, jacobian, factors, guess(row, increments), *how)
         increment = jnp.where(found.done, (found.x - known) / row.own, jnp.nan)
         cost = done & found.done, jacobians + found.jacobians, corrections + found.made
         return (increments.at[row.at].set(increment), found.factors, cost), None
 
     begin = _Row(*(part[0] for part in rows))
     fixed, at, c = without_derivatives((fields, guess(begin, increments), begin.own * h))
-    factors = matrix.renewed(fixed(begin.fraction), at, c)
+    factors = jacobian.factorized(fixed(begin.fraction), at, c)
     cost = jnp.array(True), jnp.ones((), jnp.int32), jnp.zeros((), jnp.int32)
     (increments, _, cost), _ = lax.scan(one, (increments, factors, cost), rows)
     return Stages(increments, *cost)

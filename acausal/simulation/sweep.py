@@ -27,7 +27,7 @@ from acausal.errors import (
     user_level,
 )
 from acausal.jobs import Workers, blocks, need_workers, on_workers
-from acausal.modeling import ByName, names_in, names_matching
+from acausal.modeling import ByName, by_name, names_in, names_matching
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
 
@@ -91,7 +91,8 @@ class Sweep(ByName):
         Raises:
             DataError: for a name that was not varied, or what is not a number.
         """
-        for name, value in _by_name(values, "sel"):
+        values = by_name(values, "sel", "{'spring.c': ...}")
+        for name, value in values.items():
             self._known(name)
             if not is_real(value) or np.ndim(value):
                 raise DataError(f"sel: '{name}' is {shown(value)}; give a number.")
@@ -107,7 +108,8 @@ class Sweep(ByName):
         Raises:
             DataError: for a name that is no axis, or a position outside.
         """
-        for name, index in _by_name(indices, "isel"):
+        indices = by_name(indices, "isel", "{'spring.c': ...}")
+        for name, index in indices.items():
             if name not in self.dims[:-1]:
                 raise DataError(f"isel: {nearest(name, self.dims[:-1])}")
             size = self.shape[self.dims.index(name)]
@@ -316,13 +318,6 @@ def _values(system: System, name: str, given: ArrayLike) -> Float[np.ndarray, " 
                 f"over: '{name}' has {outside[0]:g}, but must be {limit} {unit}".rstrip() + "."
             )
     return values
-
-
-def _by_name(given: object, function: str) -> list[tuple[str, Any]]:
-    """Names, each with what is given for it."""
-    if not isinstance(given, Mapping):
-        raise DataError(f"{function}: {shown(given)} has no names; give {{'spring.c': ...}}.")
-    return [(name, given[name]) for name in names_in(given, function)]
 
 
 def _variants(

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import sympy as sp
 
-from acausal.errors import StructureError, listing
+from acausal.errors import listing
 from acausal.flattening import Integers, Origin, Statement
 from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
-from acausal.structure.equations import Equations
+from acausal.structure.equations import Equations, matrix
 from acausal.structure.jacobian import Point, is_constant, partials
 from acausal.structure.rank import singular
 from acausal.structure.tearing import Preference, Torn, tear
@@ -157,7 +157,8 @@ def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray
     )
     wrong = _singular(loop, parameters)
     if wrong is not None:
-        raise StructureError(_explain(system, blocks[wrong]))
+        block = blocks[wrong]
+        raise system.singular_loop(block.stated, block.unknowns, _hint(system, block))
     return loop
 
 
@@ -186,20 +187,15 @@ def torn_block(system: Equations, blocks: Sequence[Block]) -> Torn:
     return tear(incidence, solvable, len(ranks), preference)
 
 
-def _explain(system: Equations, block: Block) -> str:
-    names = listing(dict.fromkeys(system.describe(e) for e in block.stated), 6)
-    unknowns = listing([system.name(v) for v in block.unknowns])
+def _hint(system: Equations, block: Block) -> str:
+    """What to say of parameters of a singular loop that are zero."""
     zeros = [
         system.model.layout.parameter(p)
         for e, stated in zip(block.stated, block.equations, strict=True)
         for column in stated.vanishing
         for p in system.divisors(e, column)
     ]
-    hint = f"; {listing(dict.fromkeys(zeros))} being zero may be why" if zeros else ""
-    return (
-        f"the equations of a loop repeat or contradict each other, so that they do not determine {unknowns}: "
-        f"{names}{hint}"
-    )
+    return f"; {listing(dict.fromkeys(zeros))} being zero may be why" if zeros else ""
 
 
 def _singular(loop: TornLoop, parameters: np.ndarray) -> int | None:
@@ -225,8 +221,3 @@ def _singular(loop: TornLoop, parameters: np.ndarray) -> int | None:
     each = np.stack(values, axis=1).tolist()
     size = shape.n_unknowns
     return next((i for i, own in enumerate(each) if singular(rows, columns, own, size)), None)
-
-
-def matrix(rows: list[list[int]]) -> Integers:
-    """Rows of equal length as an array, also where they are empty."""
-    return np.asarray(rows, dtype=np.int64).reshape(len(rows), -1)

@@ -8,13 +8,13 @@ pattern of merged, negated and vanished slots, which may reveal further aliases.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from acausal.errors import StructureError
-from acausal.flattening import EquationGroup, FlatModel, Integers, Origin, Statement, joined
+from acausal.flattening import EquationGroup, FlatModel, Integers, Origin, Statement, join_groups
 from acausal.structure.alias_classes import KNOWN, MERGED, REFUSED, AliasClasses
 
 
@@ -59,9 +59,9 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
         pieces = [
             p for group in pending for p in _specialise(group, classes, parameters, model.folded)
         ]
-        pending = [p for p in pieces if not _is_settled(p.template)]
+        pending = [p for p in pieces if not _says_alias(p.template)]
         changed = False
-        for piece in _in_order((p for p in pieces if _is_settled(p.template)), order):
+        for piece in _in_order((p for p in pieces if _says_alias(p.template)), order):
             alias = piece.template.alias()
             if alias is None:
                 redundant += piece.stated(range(len(piece)))
@@ -94,7 +94,7 @@ def _check_inputs(model: FlatModel, classes: AliasClasses) -> None:
             )
 
 
-def _is_settled(template: Statement) -> bool:
+def _says_alias(template: Statement) -> bool:
     """Whether an equation only says that variables are equal up to sign, or zero, or nothing."""
     return template.is_void or template.alias() is not None
 
@@ -107,7 +107,7 @@ def _by_template(groups: Iterable[EquationGroup]) -> list[EquationGroup]:
     found: dict[Statement, list[EquationGroup]] = {}
     for group in groups:
         found.setdefault(group.template, []).append(group)
-    return [same[0] if len(same) == 1 else joined(same) for same in found.values()]
+    return [same[0] if len(same) == 1 else join_groups(same) for same in found.values()]
 
 
 def _in_order(groups: Iterable[EquationGroup], order: dict[Origin, int]) -> list[EquationGroup]:
@@ -135,55 +135,60 @@ def _specialise(
     roots = classes.root[group.variables]
     arguments = parameters[group.parameters]
     first = _first_equal(roots) + 1
-    pattern = np.where(roots == classes.zero, 0, first * classes.root_sign[group.variables])
-    pattern = np.concatenate([pattern, folded[arguments].astype(np.int64)], axis=1)
-    if len(group) == 1 or (pattern == pattern[0]).all():
-        kinds, which = pattern[:1], np.zeros(len(group), dtype=np.int64)
-    else:
-        kinds, index, which = np.unique(pattern, axis=0, return_index=True, return_inverse=True)
-        order = np.argsort(index)  # in order of appearance
-        kinds, which = kinds[order], np.argsort(order)[which.ravel()]
-    pieces: list[EquationGroup] = []
-    for number, kind in enumerate(kinds):
-        rows = np.flatnonzero(which == number)
-        own = group.rows(rows)
-        template, columns = own.specialised(tuple(int(k) for k in kind))
-        pieces.append(
-            EquationGroup(
-                template,
-                roots[rows][:, columns[0]],
-                arguments[rows][:, columns[1]],
-                own.modules[:, columns[2]],
-                own.components,
-                own.origins,
-            )
-        )
-    return pieces
+    codes = np.where(roots == classes.zero, 0, first * classes.root_sign[group.variables])
+    merged = replace(group, variables=roots, parameters=arguments)
+    return [piece for piece, _ in _by_pattern(merged, codes, folded[arguments])]
 
 
-def _fold(group: EquationGroup, parameters: Integers, folded: np.ndarray) -> list[EquationGroup]:
+def _fold(
+    group: EquationGroup, parameters: Integers, folded: np.ndarray
+) -> Iterator[EquationGroup]:
     """A group with derivatives rewritten without the folded parameters: some derivatives may vanish with them."""
-    is_zero = folded[parameters[group.parameters]]
-    if not any(group.template.orders) or not is_zero.any():
+    is_zero, orders = folded[parameters[group.parameters]], group.template.orders
+    if not any(orders) or not is_zero.any():
+        yield group
+        return
+    as_it_is = np.arange(1, len(orders) + 1)
+    for piece, kept in _by_pattern(group, as_it_is, is_zero):
+        template = piece.template.with_orders(tuple(orders[c] for c in kept))
+        yield replace(piece, template=template)
+
+
+def _negated(group: EquationGroup, flips: Integers) -> list[EquationGroup]:
+    """Split a group by which slots change sign, and change it."""
+    if (flips == 1).all():
         return [group]
-    kinds, which = np.unique(is_zero, axis=0, return_inverse=True)
-    as_it_is = tuple(range(1, len(group.template.variables) + 1))
-    pieces: list[EquationGroup] = []
+    codes = flips * np.arange(1, flips.shape[1] + 1)
+    is_zero = np.zeros_like(group.parameters, dtype=bool)
+    return [piece for piece, _ in _by_pattern(group, codes, is_zero)]
+
+
+def _by_pattern(
+    group: EquationGroup, codes: Integers, is_zero: np.ndarray
+) -> Iterator[tuple[EquationGroup, list[int]]]:
+    """A group split by pattern and specialised, in order of appearance, and the slots of variables that remain.
+
+    Arguments:
+        codes: by instance and slot of a variable, as for `Template.specialised`. is_zero: of a parameter.
+    """
+    pattern = np.concatenate([np.broadcast_to(codes, group.variables.shape), is_zero], axis=1)
+    kinds, which = pattern[:1], np.zeros(len(group), dtype=np.int64)
+    if (pattern != pattern[0]).any():
+        kinds, index, which = np.unique(pattern, axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(index)
+        kinds, which = kinds[order], np.argsort(order)[which.ravel()]
     for number, kind in enumerate(kinds):
-        rows = group.rows(which.ravel() == number)
-        template, columns = rows.specialised((*as_it_is, *(int(k) for k in kind)))
-        orders = tuple(group.template.orders[c] for c in columns[0])
-        pieces.append(
-            EquationGroup(
-                template.with_orders(orders),
-                rows.variables[:, columns[0]],
-                rows.parameters[:, columns[1]],
-                rows.modules[:, columns[2]],
-                rows.components,
-                rows.origins,
-            )
+        own = group.rows(which == number)
+        template, columns = own.specialised(tuple(int(k) for k in kind))
+        piece = EquationGroup(
+            template,
+            own.variables[:, columns[0]],
+            own.parameters[:, columns[1]],
+            own.modules[:, columns[2]],
+            own.components,
+            own.origins,
         )
-    return pieces
+        yield piece, columns[0]
 
 
 def _first_equal(rows: Integers) -> Integers:
@@ -282,18 +287,3 @@ def _depths(model: FlatModel) -> Integers:
     above = [0 if not path else path.count(".") + 1 for path in layout.paths]
     pieces = [own[f] + above[i] for i, f in enumerate(layout.form_of)]
     return np.concatenate(pieces) if pieces else np.empty(0, dtype=np.int64)
-
-
-def _negated(group: EquationGroup, flips: Integers) -> list[EquationGroup]:
-    """Split a group by which slots change sign, and change it."""
-    if (flips == 1).all():
-        return [group]
-    kinds, which = np.unique(flips, axis=0, return_inverse=True)
-    pieces: list[EquationGroup] = []
-    for number, kind in enumerate(kinds):
-        pattern = tuple(int(s) * (j + 1) for j, s in enumerate(kind)) + (0,) * len(
-            group.template.parameters
-        )
-        rows = group.rows(which.ravel() == number)
-        pieces.append(replace(rows, template=rows.specialised(pattern)[0]))
-    return pieces

@@ -16,8 +16,8 @@ import numpy as np
 from acausal.errors import StructureError, listing
 from acausal.flattening import Integers, Template
 from acausal.structure import graph
-from acausal.structure.algebraic_loops import TornLoop, block_of, matrix, torn_loop
-from acausal.structure.equations import Equations
+from acausal.structure.algebraic_loops import TornLoop, block_of, torn_loop
+from acausal.structure.equations import Equations, matrix
 from acausal.structure.sparse_loops import SparseLoop, sparse_loop
 from acausal.structure.tearing_pays import tearing_pays
 
@@ -188,10 +188,4 @@ def _no_divisor(system: Equations, equation: int, column: int) -> str:
 def _assignment(
     system: Equations, template: Template, column: int, members: list[int]
 ) -> Assignment:
-    return Assignment(
-        template,
-        column,
-        matrix([system.variables[e] for e in members]),
-        matrix([system.parameters[e] for e in members]),
-        matrix([system.modules[e] for e in members]),
-    )
+    return Assignment(template, column, *system.slots(members))

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from acausal.errors import StructureError
+from acausal.errors import StructureError, listing
 from acausal.flattening import FEW_VARIANTS, FlatModel, Integers, Origin, Statement, specialised
 from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
@@ -33,26 +33,18 @@ class Equations:
     structure: graph.DifferentialStructure
     sign: list[int]
     base: list[int]
-    discrete: set[int]
+    discrete: dict[int, None]
     derived_from: dict[int, int] = field(default_factory=dict)
 
     @staticmethod
     def of(model: FlatModel, aliases: AliasFree) -> Equations:
         """Number the equations of a model without aliases."""
-        template: list[Statement] = []
-        variables: list[list[int]] = []
-        parameters: list[list[int]] = []
-        modules: list[list[int]] = []
-        component: list[int] = []
-        origin: list[Origin] = []
-        for group in aliases.groups:
-            template += [group.template] * len(group)
-            variables += group.variables.tolist()
-            parameters += group.parameters.tolist()
-            modules += group.modules.tolist()
-            component += group.components.tolist()
-            origin += group.origins.tolist()
-        discrete = set(discrete_nodes(model, aliases).tolist())
+        template = [g.template for g in aliases.groups for _ in range(len(g))]
+        columns = [[c.tolist() for c in g.columns] for g in aliases.groups]
+        variables, parameters, modules, component, origin = (
+            [row for own in columns for row in own[k]] for k in range(5)
+        )
+        discrete = dict.fromkeys(discrete_nodes(model, aliases).tolist())
         known = {aliases.zero, *discrete, *(int(aliases.representative[i]) for i in model.inputs)}
         derivative = aliases.derivative.tolist()
         for node in sorted(known):
@@ -164,11 +156,29 @@ class Equations:
         }
         return list(map(text.get, pairs))
 
+    def slots(self, equations: Sequence[int]) -> tuple[Integers, Integers, Integers]:
+        """What fills the slots of equations of one template: variables, parameters and modules, row by row."""
+        tables = self.variables, self.parameters, self.modules
+        of_variables, of_parameters, of_modules = (
+            matrix([t[e] for e in equations]) for t in tables
+        )
+        return of_variables, of_parameters, of_modules
+
     def describe(self, equation: int) -> str:
         """Where an equation is stated, and its text (of a derivative, that of the original equation)."""
         while equation in self.derived_from:
             equation = self.derived_from[equation]
         return self.model.stated_at(self.component[equation], self.origin[equation])
+
+    def singular_loop(
+        self, equations: Sequence[int], unknowns: Sequence[int], hint: str = ""
+    ) -> StructureError:
+        """The error for a loop whose equations do not determine its unknowns."""
+        names = listing(dict.fromkeys(map(self.describe, equations)), 6)
+        return StructureError(
+            "the equations of a loop repeat or contradict each other, so that they do not determine "
+            f"{listing(map(self.name, unknowns))}: {names}{hint}"
+        )
 
     def name(self, node: int) -> str:
         """Dotted name of a node; derivatives without one are called ``der(...)``."""
@@ -279,6 +289,11 @@ class Equations:
         if node in self.known:
             self.known.add(derivative)
         return derivative, self.sign[node] if node < len(self.sign) else 1
+
+
+def matrix(rows: Sequence[Sequence[int]]) -> Integers:
+    """Rows of equal length as an array, also where they are empty."""
+    return np.asarray(rows, dtype=np.int64).reshape(len(rows), -1)
 
 
 def _read(template: Statement, row: list[int]) -> list[int]:

@@ -14,8 +14,9 @@ import numpy as np
 import sympy as sp
 
 from acausal.flattening import Integers, Template
-from acausal.structure.algebraic_loops import TornLoop, matrix
+from acausal.structure.algebraic_loops import TornLoop
 from acausal.structure.blocks import Assignment
+from acausal.structure.equations import matrix
 from acausal.structure.reduced_model import ReducedModel
 
 _SLOTS = tuple(sp.Symbol(name, real=True) for name in ("rate", "der", "z", "g"))

@@ -111,7 +111,7 @@ def cancelling(rows: Mapping[int, Mapping[int, Any]]) -> list[dict[int, Any]]:
 
     Exact for the numbers of any field (fractions, say, or residues of a prime).
     """
-    crowd = Counter(c for row in rows.values() for c in row)
+    uses = Counter(c for row in rows.values() for c in row)
     basis: list[_Reduced] = []
     basis_of: dict[int, int] = {}
     found: list[dict[int, Any]] = []
@@ -131,7 +131,7 @@ def cancelling(rows: Mapping[int, Mapping[int, Any]]) -> list[dict[int, Any]]:
                 rest[c] = rest[c] - factor * value if c in rest else -factor * value
         rest = {c: value for c, value in rest.items() if value}
         if rest:
-            pivot = min(rest, key=lambda c: (crowd[c], c))
+            pivot = min(rest, key=lambda c: (uses[c], c))
             divisor = rest.pop(pivot)
             basis_of[pivot] = len(basis)
             reduced = {c: value / divisor for c, value in rest.items()}

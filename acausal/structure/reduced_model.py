@@ -16,7 +16,7 @@ from acausal.structure import graph
 from acausal.structure.algebraic_loops import TornLoop
 from acausal.structure.aliases import AliasFree, eliminate_aliases
 from acausal.structure.blocks import SolvingStep, order_steps
-from acausal.structure.discrete import check_jumps, discrete_nodes
+from acausal.structure.discrete import check_jumps
 from acausal.structure.equations import Equations
 from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.singularity import explain_singularity
@@ -204,7 +204,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
         inputs=np.asarray(inputs, dtype=np.int64),
         input_orders=tuple(orders),
         input_signs=np.asarray(signs, dtype=np.int64),
-        discrete=discrete_nodes(system.model, system.aliases),
+        discrete=np.asarray(list(system.discrete), dtype=np.int64),
         base=np.asarray(system.base, dtype=np.int64),
         derivative=np.asarray(system.structure.derivative, dtype=np.int64),
         derivative_sign=np.asarray(system.sign, dtype=np.int64),

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from acausal.errors import listing
-from acausal.flattening import FlatModel
-from acausal.modeling import Potential
+import numpy as np
+
+from acausal.errors import DeclarationError, listing
+from acausal.flattening import FlatModel, Origin
+from acausal.modeling import Component, Eq, Potential
 from acausal.structure import graph
 from acausal.structure.equations import Equations
-from acausal.structure.suspects import forgotten_equations, inputs_that_are_set
 
 
 def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]) -> str | None:
@@ -50,10 +51,10 @@ def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]
         )
     floating = any(_is_potential(model, node) for node in unmatched)
     excess = bool(surplus or aliases.redundant)
-    mend = (missing and forgotten_equations(model)) or _mend(bool(missing), excess, floating)
+    remedy = (missing and forgotten_equations(model)) or _remedy(bool(missing), excess, floating)
     if is_set := inputs_that_are_set(model, (*surplus, *aliases.redundant)):
-        mend = f"{is_set} {mend}"
-    return "; ".join(parts) + f". {mend}"
+        remedy = f"{is_set} {remedy}"
+    return "; ".join(parts) + f". {remedy}"
 
 
 def _is_potential(model: FlatModel, node: int) -> bool:
@@ -62,7 +63,7 @@ def _is_potential(model: FlatModel, node: int) -> bool:
     return isinstance(model.layout.variable_declaration(node), Potential)
 
 
-def _mend(missing: bool, surplus: bool, floating: bool) -> str:
+def _remedy(missing: bool, surplus: bool, floating: bool) -> str:
     if not missing:
         return "Are two sources or fixed points joined rigidly, or is an equation stated twice?"
     if floating:
@@ -70,3 +71,63 @@ def _mend(missing: bool, surplus: bool, floating: bool) -> str:
     if surplus:
         return "Are two sources or fixed points joined rigidly, in parallel or in series?"
     return "Is a connector left unconnected, or an equation forgotten?"
+
+
+def inputs_that_are_set(model: FlatModel, surplus: Sequence[tuple[Origin, int]]) -> str | None:
+    """A sentence on inputs of the model in equations that are too many, or None.
+
+    Arguments:
+        model: the singular model.
+        surplus: origin and component of every such equation.
+    """
+    inputs = set(model.inputs.tolist())
+    found: dict[str, None] = {}
+    for origin, component in surplus:
+        for group in model.groups:
+            if origin in group.origins:
+                for row in group.variables[np.flatnonzero(group.components == component)].tolist():
+                    found |= {model.layout.variable(v): None for v in row if v in inputs}
+    if not found:
+        return None
+    what = "the Input" if len(found) == 1 else "the Inputs"
+    return (
+        f"Does an equation set {what} {listing(found)}, to which nothing is connected? "
+        "Connect it, or make it an Output."
+    )
+
+
+def forgotten_equations(model: FlatModel) -> str | None:
+    """A sentence on components that state none of the equations of one of their base classes, or None."""
+    found = {
+        f"'{c._node.path}' ({type(c).__name__})": base.__name__
+        for c in (form.prototype for form in model.layout.forms)
+        if (base := _base_without_effect(c)) is not None
+    }
+    if not found:
+        return None
+    component, base = next(iter(found.items()))
+    also = f", and {len(found) - 1} more likewise" if len(found) > 1 else ""
+    return (
+        f"{component} states none of the equations of its base class {base}{also}: "
+        "is 'yield from super().equations()' missing?"
+    )
+
+
+def _base_without_effect(component: Component) -> type[Component] | None:
+    """The first base class whose equations its subclass neither states nor extends."""
+    stating = [c for c in type(component).__mro__ if "equations" in vars(c) and c is not Component]
+    if len(stating) < 2:
+        return None
+    own = list(component.equations())
+    for base in stating[1:]:
+        expected = list(_equations_of(base, component))
+        if expected and not any(equation in own for equation in expected):
+            return base
+    return None
+
+
+def _equations_of(base: type[Component], component: Component) -> Iterator[Eq]:
+    try:
+        yield from base.equations(component)
+    except (NotImplementedError, AttributeError, DeclarationError):
+        return  # the base class leaves them to its subclasses

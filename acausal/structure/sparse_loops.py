@@ -7,9 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acausal.errors import StructureError, listing
 from acausal.flattening import Integers, Origin, Statement
-from acausal.structure.algebraic_loops import matrix
 from acausal.structure.elimination_order import Pattern, analyse, match_rows
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import Point, partials, random_values
@@ -119,7 +117,7 @@ def sparse_loop(
     try:
         pattern, matched = analyse(*entries, len(nodes)), match_rows(*entries, len(nodes))
     except np.linalg.LinAlgError:
-        raise StructureError(_singular(system, equations, unknowns)) from None
+        raise system.singular_loop(equations, unknowns) from None
     return SparseLoop(nodes, groups, sums, pattern, matched)
 
 
@@ -141,9 +139,7 @@ def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tupl
         SparseGroup(
             template,
             inner,
-            matrix([system.variables[e] for e in members]),
-            matrix([system.parameters[e] for e in members]),
-            matrix([system.modules[e] for e in members]),
+            *system.slots(members),
             tuple(system.origin[e] for e in members),
         )
         for (template, inner, _), members in found.items()
@@ -158,12 +154,4 @@ def _sums(system: Equations, equations: list[int]) -> LinearRows:
         np.asarray([v for e in equations for v in system.variables[e]], dtype=np.int64),
         np.asarray(factors, dtype=float),
         tuple(system.origin[e] for e in equations),
-    )
-
-
-def _singular(system: Equations, equations: list[int], unknowns: list[int]) -> str:
-    names = listing(dict.fromkeys(system.describe(e) for e in equations), 6)
-    return (
-        f"the equations of a loop repeat or contradict each other, so that they do not determine "
-        f"{listing([system.name(v) for v in unknowns])}: {names}"
     )

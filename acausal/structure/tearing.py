@@ -115,7 +115,7 @@ class _Block:
                 self.open[e] += 1
 
     def learn_all(self, variables: Iterable[int]) -> bool:
-        """Start anew from these variables; whether all others follow."""
+        """Start again from these variables; whether all others follow."""
         self.reset()
         for v in variables:
             if not self.known[v]:
@@ -129,7 +129,7 @@ class _Block:
         ready = [e for e, count in enumerate(still_open) if count == 1]
         assigned: list[tuple[int, int]] = []
 
-        def tell(variable: int) -> None:
+        def follow(variable: int) -> None:
             known[variable] = True
             for e in self.columns[variable]:
                 still_open[e] -= 1
@@ -137,14 +137,14 @@ class _Block:
                     heappush(ready, e)
 
         for v in tears:
-            tell(v)
+            follow(v)
         while ready:
             e = heappop(ready)
             rest = next((v for v in self.rows[e] if not known[v]), -1)
             if rest in self.solvable[e]:
                 used[e] = True
                 assigned.append((e, rest))
-                tell(rest)
+                follow(rest)
         residuals = tuple(e for e, is_used in enumerate(used) if not is_used)
         return Torn(tuple(tears), tuple(assigned), residuals)
 

@@ -5,5 +5,4 @@ It knows flat models; neither JAX nor structure.
 """
 
 from acausal.units.check import check_dimensions as check_dimensions
-from acausal.units.conversion import convert as convert
-from acausal.units.si import InSI as InSI, in_si as in_si
+from acausal.units.si import InSI as InSI, convert as convert, in_si as in_si

@@ -43,7 +43,7 @@ def check_dimensions(flat: FlatModel) -> None:
         UnitError: for text that is not a unit; for equations, values and connections of unlike dimensions. It names
             the components, the equations as they are written, and the unlike terms in them, at most a dozen.
     """
-    _tell(flat, [*_misspelt(flat.layout)])
+    _report(flat, [*_misspelt(flat.layout)])
     measures = _measure(flat)
     wrong = [*_equations(flat, measures)]
     wrong += _values(
@@ -51,10 +51,10 @@ def check_dimensions(flat: FlatModel) -> None:
     )
     wrong += _values(flat.starts, measures.variables, flat.layout.variable, flat.layout, measures)
     wrong += _joins(flat, measures)
-    _tell(flat, wrong)
+    _report(flat, wrong)
 
 
-def _tell(flat: FlatModel, wrong: Sequence[str]) -> None:
+def _report(flat: FlatModel, wrong: Sequence[str]) -> None:
     if wrong and not flat.layout.components[0]._units_bind:
         warnings.warn(_listed(wrong), stacklevel=4)
     elif wrong:
@@ -219,7 +219,7 @@ def _slots(group: EquationGroup, measures: _Measures) -> SlotDimensions:
 
 
 def _hint(template: Statement, slots: SlotDimensions, finding: Finding) -> str:
-    """A likely mend of the equation: another unit of a parameter, or a derivative."""
+    """A likely remedy for the equation: another unit of a parameter, or a derivative."""
     own = [(s, d) for s, d in slots if s in template.parameters and "." not in str(s)]
     found: list[str] = []
     for (symbol, given), power in product(own, (1, -1)):

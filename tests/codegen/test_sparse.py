@@ -148,9 +148,9 @@ def test_the_transposed_system_has_the_same_factors(system, monkeypatch):
     matrix, entries, b, _ = system
     matrix = SparseMatrix(matrix.pattern)
     calls = count_factorizations(monkeypatch)
-    x = matrix.solve_transposed(entries, b)
-    close(matrix.transposed_times(entries, x), b)
-    gradients = jax.grad(lambda b: matrix.solve_transposed(entries, b) @ b)(b)
+    x = matrix.solve(entries, b, transposed=True)
+    close(matrix.times(entries, x, transposed=True), b)
+    gradients = jax.grad(lambda b: matrix.solve(entries, b, transposed=True) @ b)(b)
     close(gradients, x + matrix.solve(entries, b))
     assert len(calls) == 1
 

@@ -138,7 +138,7 @@ def test_loops_that_join_all_states_are_opened(resistor, large, monkeypatch):
     def run(x, packed):
         field, matrix = system.field(0.0, u, packed), jacobian.iteration_matrix
         kept = matrix.factorize(jacobian.entries(field, x), 0.3)
-        found = matrix.solve(kept, b), matrix.solve_transposed(kept, b)
+        found = matrix.solve(kept, b), matrix.solve(kept, b, transposed=True)
         return *found, jnp.eye(n) - 0.3 * jax.jacfwd(field)(x)
 
     once, transposed, dense = run(x, packed)

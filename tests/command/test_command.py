@@ -308,6 +308,7 @@ def test_simulate(typed, folder: Path) -> None:
         rows = list(csv.reader(file))
     assert rows[0][0] == "time [s]"
     assert "mass.a [m/s2]" in rows[0]
+    assert all(name.partition(" ")[0].count(".") == 1 for name in rows[0][1:])
     assert [row[0] for row in rows[1:]] == ["0.0", "0.5", "1.0", "1.5", "2.0"]
 
 
@@ -338,7 +339,8 @@ def test_simulate_into_a_pipe(typed) -> None:
     [
         ((), 4, "No value for the model's input 'push.f'"),
         ((*PUSH, "--set", "mas.m=1"), 4, "mas.m"),
-        ((*PUSH, "--names", "mass.z*"), 4, "The model has no variable 'mass.z*'"),
+        ((*PUSH, "--names", "mass.z*"), 4, "No variable is called 'mass.z*'"),
+        ((*PUSH, "--names", "mass.z"), 4, "The model has no variable 'mass.z'"),
         ((*PUSH, "--inputs", "push.xyz"), 4, "'.xyz' is no known ending"),
         ((*PUSH, "--params", "nowhere.safetensors"), 4, "nowhere.safetensors"),
         ((*PUSH, "--set", "spring.c=1e99", "--dt", "0.1"), 5, "s"),

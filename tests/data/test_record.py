@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.units.conversion import convert
+from acausal.units.si import convert
 from tests.support.oscillator import plain
 
 TIME = np.linspace(0, 1, 11)

@@ -15,6 +15,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks, electrical as el, translational as tl
 from examples.qvm.model import with_networks
+from tests.support.clear_drawings import overlaps
 from tests.support.counted import calls_below
 from tests.support.drawn import Bridge, Chain, Controller, Drive, Tree
 from tests.support.paths import ROOT
@@ -120,7 +121,7 @@ def test_a_connection_into_a_part_of_a_part_gets_a_port() -> None:
     assert "drive.r.n probe.p" in attributes(ac.diagram(model), "connection")
     opened = ac.diagram(model, depth=2)
     assert "drive.r.n" in attributes(opened, "port")
-    assert not list(opened.placed.overlaps())
+    assert not overlaps(opened.placed)
 
 
 def test_what_holds_a_network_is_tinted() -> None:
@@ -224,7 +225,7 @@ def test_two_hundred_components_take_little_work() -> None:
     with calls_below(3_000_000):
         placed = ac.diagram(tree).placed
     assert len(placed.boxes) == 199
-    assert not list(placed.overlaps())
+    assert not overlaps(placed)
 
 
 def test_what_is_missing_is_told_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:

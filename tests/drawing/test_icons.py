@@ -20,6 +20,7 @@ from acausal.components import (
 )
 from acausal.drawing.pictures import contact, to_pin
 from acausal.drawing.ports import BOOLEAN, INTEGER, color_of
+from tests.support.clear_drawings import covered
 from tests.support.scripts import script
 from tests.support.surrounded import surrounded
 
@@ -76,7 +77,7 @@ def test_no_wire_ends_in_the_air_and_nothing_touches_a_name(package: str) -> Non
             placed = ac.diagram(surrounded(cls())).placed
         except (ac.AcausalError, TypeError):  # it needs a table, or a size
             continue
-        assert not placed.covered, name
+        assert not covered(placed), name
         for box in placed.boxes:
             if box.box.path != "part" or box.box.icon.frame:
                 continue

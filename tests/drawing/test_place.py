@@ -11,6 +11,7 @@ import acausal as ac
 from acausal.components import blocks, electrical as el
 from acausal.modelica.placing import placement
 from acausal.modeling import Placement
+from tests.support.clear_drawings import covered
 
 pytest.importorskip("graphlay")
 
@@ -48,7 +49,7 @@ def test_parts_lie_where_they_were_placed() -> None:
     assert x[1] - x[0] == pytest.approx((x[2] - x[1]) / 2)
     assert y[0] > y[1] == y[2]  # upwards in the model is upwards on paper
     placed = drawing.placed
-    assert (placed.crossings, placed.shared, placed.touched, placed.covered) == (0, 0, 0, [])
+    assert (placed.crossings, placed.shared, placed.touched, covered(placed)) == (0, 0, 0, [])
     source = next(box for box in placed.boxes if box.box.path == "source")
     assert [source.side(number) for number in sorted(source.ports)] == ["top", "bottom"]
     ground = [box for box in placed.boxes if box.box.path == "ground"]

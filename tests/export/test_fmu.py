@@ -18,7 +18,7 @@ import pytest
 import acausal as ac
 from acausal.components import translational as tl
 from acausal.export import fmu_file
-from acausal.export.fmu_text.names import element, leaf, legal, unused
+from acausal.export.fmu_text.variables import element, leaf, legal, unused
 from examples.qvm.model import with_networks
 from tests.components.test_neural_elements import Piezo
 from tests.export.test_c import Chain, Rectifier

@@ -87,8 +87,8 @@ def test_values_can_be_read_where_an_fmu_ends(linear: Path, kind: Any) -> None:
     ("values", "says"),
     [
         ({"n": 2}, r"no values for 4 elements of 'A': give \{'A': ...\}, an array of shape \(2, 2"),
-        ({"n": 2.5}, "structural parameter 'n' of 'Linear' is 2.5; give a whole number"),
-        ({"n": -1}, "structural parameter 'n' of 'Linear' is -1; give a whole number"),
+        ({"n": 2.5}, "'Linear' the structural parameter n=2.5; give a whole number"),
+        ({"n": -1}, "'Linear' the structural parameter n=-1; give a whole number"),
     ],
 )
 def test_sizes_that_are_none_are_refused(linear: Path, values: Any, says: str) -> None:

@@ -16,7 +16,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks
 from acausal.fmu.derivatives import Differentiated
-from acausal.fmu.exchange import Exchange
+from acausal.fmu.model_exchange import Exchange
 from tests.export.test_c import Chain
 from tests.support.fmus import need_fmpy
 from tests.support.hybrid import Ball, Sampled, Thermostat

@@ -131,5 +131,5 @@ def test_a_wrong_selection_is_told(swept: ac.Sweep) -> None:
         swept.isel({"spring.c": 4})
     with pytest.raises(ac.DataError, match=r"isel: 'spring\.c'=0\.5; give a whole number"):
         swept.isel({"spring.c": 0.5})  # pyright: ignore[reportArgumentType]
-    with pytest.raises(ac.DataError, match=r"isel: 0\.5 has no names"):
+    with pytest.raises(ac.DataError, match=r"isel=0\.5 has no names"):
         swept.isel(0.5)  # pyright: ignore[reportArgumentType]

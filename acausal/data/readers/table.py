@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from acausal.data.by_signal import check_units
 from acausal.data.samples import Place, sample
 from acausal.errors import DataError, nearest, shown
-from acausal.modeling import names_in
+from acausal.modeling import by_name, names_in
 
 HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
 """A column's header: ``name`` or ``name [unit]``."""
@@ -60,13 +61,10 @@ class Selection:
         Raises:
             DataError: for a choice of a column that the source does not have.
         """
-        if not isinstance(self.rename, Mapping | None):
-            raise DataError(
-                f"rename={shown(self.rename)} has no names; give {{'column': 'mass.s'}}."
-            )
+        rename = by_name(self.rename, "rename", "{'column': 'mass.s'}")
         columns = None if self.columns is None else names_in(self.columns, "columns")
         group = () if self.group is None else names_in(self.group, "group")
-        for name in (*(columns or ()), *names_in(self.rename or (), "rename"), *group):
+        for name in (*(columns or ()), *rename, *group):
             need_column(name, known, source)
         return [n for n in (known if columns is None else columns) if n not in (self.time, *group)]
 
@@ -94,12 +92,7 @@ class Selection:
                 )
             renamed[called[name]] = samples
         found = {called.get(n, n): u for n, u in units.items() if n in signals or n == "time"}
-        given = self.units if isinstance(self.units, Mapping) else {}
-        if not isinstance(self.units, Mapping | None):
-            raise DataError(
-                f"units={shown(self.units)} has no names; give a unit by name: {{'mass.s': 'm'}}."
-            )
-        return SignalTable(time, renamed, {**found, **given}, source, place)
+        return SignalTable(time, renamed, {**found, **check_units(self.units)}, source, place)
 
     def _name(self, column: str) -> str:
         name = (self.rename or {}).get(column, column)

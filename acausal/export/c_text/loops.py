@@ -12,14 +12,14 @@ from acausal.export.c_text.arrays import CArray, Index, linear, stored
 from acausal.export.c_text.expressions import Apply, Read, add, integer, reads, times, variable
 from acausal.export.c_text.lowering import Lowering
 from acausal.export.c_text.statements import BreakUnless, Buffer, Choose, Declare, For, Repeat
-from acausal.export.traced import TracedOperation, TracedValue, block_of
+from acausal.export.traced import TracedOperation, TracedValue, traced_block
 
 
 def _written(low: Lowering, closed: ClosedJaxpr, args: Sequence[CArray]) -> list[CArray]:
     """The results of a block within this one, for arguments that cost nothing to read."""
     inner = Lowering(low.rules, low.memory, low.statements)
     inner.depth = low.depth
-    return inner.lower(block_of(closed), args)
+    return inner.lower(traced_block(closed), args)
 
 
 def _variables(low: Lowering, starts: Sequence[CArray]) -> list[Buffer]:

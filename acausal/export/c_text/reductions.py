@@ -1,4 +1,4 @@
-"""Rules: sums, products and extremes of arrays, and products of matrices."""
+"""Rules: sums, products and extremes of arrays, products of matrices, and their factors."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from acausal.errors import ExportError
 from acausal.export.c_text.arrays import CArray, Index, linear, stored, uniform
 from acausal.export.c_text.expressions import (
     Apply,
@@ -19,7 +20,7 @@ from acausal.export.c_text.expressions import (
     times,
 )
 from acausal.export.c_text.lowering import Lowering
-from acausal.export.c_text.statements import Assign, Buffer, Choose, Declare
+from acausal.export.c_text.statements import Assign, Buffer, Call, Choose, Declare
 from acausal.export.traced import TracedOperation
 
 Combine = Callable[[Expr, Expr], Expr]
@@ -200,6 +201,22 @@ def _rows_last(array: CArray, contracted: tuple[int, ...]) -> bool:
     return bool(contracted) and contracted[-1] == len(array.shape) - 1
 
 
+def _svd(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:
+    """Singular values and both factors of one matrix, as the least steps of initialization need them."""
+    (matrix,) = args
+    if len(operation.outputs) != 3 or len(matrix.shape) != 2 or operation.params["full_matrices"]:
+        raise ExportError(
+            "C: 'svd' of several matrices, or without its factors, has no C; take it of one matrix."
+        )
+    rows, columns = matrix.shape
+    values, left, right = buffers = [low.new(o.shape, o.kind) for o in operation.outputs]
+    low.store(matrix, right if columns > rows else left)
+    low.memory.prelude.add("svd")
+    names = (values.name, left.name, right.name)
+    low.emit(Call("svd", (*names, integer(rows), integer(columns))))
+    return [stored(b, o.shape) for b, o in zip(buffers, operation.outputs, strict=True)]
+
+
 RULES: Mapping[str, Any] = {
     **dict.fromkeys(_COMBINE, _reduce),
     "argmax": _argument(">"),
@@ -209,6 +226,7 @@ RULES: Mapping[str, Any] = {
     "cummax": _cumulative("reduce_max"),
     "cummin": _cumulative("reduce_min"),
     "dot_general": _dot,
+    "svd": _svd,
 }
 
 READ_OFTEN = frozenset({"dot_general", "argmax", "argmin"})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from acausal.export.c_text import factorizations, indexed, loops, reductions
+from acausal.export.c_text import indexed, loops, reductions
 from acausal.export.c_text.arrays import (
     CArray,
     Index,
@@ -358,7 +358,6 @@ RULES = Rules(
         **reductions.RULES,
         **indexed.RULES,
         **loops.RULES,
-        **factorizations.RULES,
     },
     joined=frozenset({"slice", "split", "concatenate", "stack", "unstack"}),
     read_often=reductions.READ_OFTEN | indexed.READ_OFTEN | loops.READ_OFTEN,

@@ -25,7 +25,14 @@ static void tell(Instance *c, int status, const char *message) {
 
 static int interrupted(Instance *c, int happened) { return (void)c, (void)happened, 0; }
 
-#define STATUS FMI_EXPORT fmi2Status
+typedef fmi2Status Status;
+typedef fmi2Boolean Truth;
+typedef fmi2Byte Byte;
+
+#define OF_STATE(verb, rest) FMI(verb##FMUstate##rest)
+#define DESERIALIZE FMI(DeSerializeFMUstate)
+#define GET_RATES FMI(GetDerivatives)
+#include "fmu_functions.h"
 
 /* -- common --------------------------------------------------------------------------------------- */
 
@@ -33,35 +40,18 @@ FMI_EXPORT const char *FMI(GetTypesPlatform)(void) { return "default"; }
 
 FMI_EXPORT const char *FMI(GetVersion)(void) { return "2.0"; }
 
-STATUS FMI(SetDebugLogging)(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[]) {
-    (void)c, (void)on, (void)n, (void)categories; /* only failures are logged, and always */
-    return fmi2OK;
-}
-
 FMI_EXPORT fmi2Component FMI(Instantiate)(fmi2String name, fmi2Type type, fmi2String token, fmi2String resources,
                                           const fmi2CallbackFunctions *functions, fmi2Boolean visible,
                                           fmi2Boolean logging) {
     (void)resources, (void)visible, (void)logging;
-    Instance *c = calloc(1, sizeof(Instance));
-    if (!c) return NULL;
+    Host host = {0};
     if (functions) {
-        c->host.logger = functions->logger;
-        c->host.environment = functions->componentEnvironment;
+        host.logger = functions->logger;
+        host.environment = functions->componentEnvironment;
     }
-    snprintf(c->host.name, sizeof c->host.name, "%s", name ? name : "");
-    if (!token || strcmp(token, TOKEN) != 0)
-        complain(c, FAILED, TITLE ": the token is not that of this binary; unpack the FMU again.");
-    else if (type == fmi2ModelExchange ? !MODEL_EXCHANGE : !CO_SIMULATION)
-        complain(c, FAILED, TITLE ": this FMU was not exported for this kind of use.");
-    else {
-        start(c);
-        return c;
-    }
-    free(c);
-    return NULL;
+    snprintf(host.name, sizeof host.name, "%s", name ? name : "");
+    return instantiate(&host, token, type == fmi2ModelExchange ? MODEL_EXCHANGE : CO_SIMULATION);
 }
-
-FMI_EXPORT void FMI(FreeInstance)(fmi2Component c) { free(c); }
 
 STATUS FMI(SetupExperiment)(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real time,
                             fmi2Boolean has_end, fmi2Real end) {
@@ -70,22 +60,7 @@ STATUS FMI(SetupExperiment)(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real
     return fmi2OK;
 }
 
-#define NOTHING(name)              \
-    STATUS FMI(name)(fmi2Component c) { \
-        (void)c;                   \
-        return fmi2OK;             \
-    }
-
 NOTHING(EnterInitializationMode)
-NOTHING(Terminate)
-
-STATUS FMI(ExitInitializationMode)(fmi2Component c) { return (fmi2Status)end_start(c); }
-
-STATUS FMI(Reset)(fmi2Component c) {
-    start(c);
-    return fmi2OK;
-}
-
 /* -- values --------------------------------------------------------------------------------------- */
 
 STATUS FMI(GetReal)(fmi2Component c, const fmi2ValueReference references[], size_t n, fmi2Real values[]) {
@@ -122,30 +97,7 @@ STATUS FMI(SetBoolean)(fmi2Component c, const fmi2ValueReference references[], s
     return n ? (fmi2Status)unknown(c) : fmi2OK;
 }
 
-/* -- the state of the FMU --------------------------------------------------------------------------- */
-
-STATUS FMI(GetFMUstate)(fmi2Component c, fmi2FMUstate *state) { return (fmi2Status)keep(c, state); }
-
-STATUS FMI(SetFMUstate)(fmi2Component c, fmi2FMUstate state) { return (fmi2Status)restore(c, state); }
-
-STATUS FMI(FreeFMUstate)(fmi2Component c, fmi2FMUstate *state) {
-    (void)c;
-    return (fmi2Status)forget(state);
-}
-
-STATUS FMI(SerializedFMUstateSize)(fmi2Component c, fmi2FMUstate state, size_t *size) {
-    (void)c, (void)state;
-    *size = sizeof(State);
-    return fmi2OK;
-}
-
-STATUS FMI(SerializeFMUstate)(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
-    return (fmi2Status)serialize(c, state, bytes, size);
-}
-
-STATUS FMI(DeSerializeFMUstate)(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
-    return (fmi2Status)deserialize(c, bytes, size, state);
-}
+/* -- derivatives ---------------------------------------------------------------------------------- */
 
 STATUS FMI(GetDirectionalDerivative)(fmi2Component c, const fmi2ValueReference unknowns[], size_t n_unknowns,
                                      const fmi2ValueReference knowns[], size_t n_knowns, const fmi2Real seed[],
@@ -155,10 +107,6 @@ STATUS FMI(GetDirectionalDerivative)(fmi2Component c, const fmi2ValueReference u
 
 /* -- model exchange ------------------------------------------------------------------------------- */
 
-STATUS FMI(EnterEventMode)(fmi2Component c) { return (fmi2Status)hold_outside(c, 0); }
-
-STATUS FMI(EnterContinuousTimeMode)(fmi2Component c) { return (fmi2Status)hold_outside(c, 1); }
-
 STATUS FMI(NewDiscreteStates)(fmi2Component c, fmi2EventInfo *info) {
     int changed, timed;
     memset(info, 0, sizeof *info);
@@ -166,39 +114,6 @@ STATUS FMI(NewDiscreteStates)(fmi2Component c, fmi2EventInfo *info) {
     info->valuesOfContinuousStatesChanged = changed;
     info->nextEventTimeDefined = timed;
     return (fmi2Status)status;
-}
-
-STATUS FMI(CompletedIntegratorStep)(fmi2Component c, fmi2Boolean no_return, fmi2Boolean *event, fmi2Boolean *end) {
-    (void)no_return;
-    completed(c);
-    *event = outside_changes(c);
-    *end = 0;
-    return fmi2OK;
-}
-
-STATUS FMI(SetTime)(fmi2Component c, fmi2Real time) {
-    begin(c, time);
-    return fmi2OK;
-}
-
-STATUS FMI(SetContinuousStates)(fmi2Component c, const fmi2Real x[], size_t n) {
-    return (fmi2Status)each_state(c, STATES, NULL, x, n);
-}
-
-STATUS FMI(GetContinuousStates)(fmi2Component c, fmi2Real x[], size_t n) {
-    return (fmi2Status)each_state(c, STATES, x, NULL, n);
-}
-
-STATUS FMI(GetDerivatives)(fmi2Component c, fmi2Real dx[], size_t n) {
-    return (fmi2Status)each_state(c, DERIVATIVES, dx, NULL, n);
-}
-
-STATUS FMI(GetEventIndicators)(fmi2Component c, fmi2Real indicators[], size_t n) {
-    return (fmi2Status)get_indicators(c, indicators, n);
-}
-
-STATUS FMI(GetNominalsOfContinuousStates)(fmi2Component c, fmi2Real values[], size_t n) {
-    return (fmi2Status)nominals(c, values, n);
 }
 
 /* -- co-simulation -------------------------------------------------------------------------------- */

@@ -27,40 +27,26 @@ static int interrupted(Instance *c, int happened) {
     return host->happened || (wanted && host->may_return_early && until <= c->reached);
 }
 
-#define STATUS FMI_EXPORT fmi3Status
+typedef fmi3Status Status;
+typedef fmi3Boolean Truth;
+typedef fmi3Byte Byte;
+
+#define OF_STATE(verb, rest) FMI(verb##FMUState##rest)
+#define DESERIALIZE FMI(DeserializeFMUState)
+#define GET_RATES FMI(GetContinuousStateDerivatives)
+#include "fmu_functions.h"
 
 /* -- common --------------------------------------------------------------------------------------- */
 
 FMI_EXPORT const char *FMI(GetVersion)(void) { return "3.0"; }
-
-STATUS FMI(SetDebugLogging)(fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String categories[]) {
-    (void)c, (void)on, (void)n, (void)categories; /* only failures are logged, and always */
-    return fmi3OK;
-}
-
-static Instance *instantiate(fmi3String token, int possible, void *environment, fmi3LogMessageCallback logger) {
-    Instance *c = calloc(1, sizeof(Instance));
-    if (!c) return NULL;
-    c->host.logger = logger;
-    c->host.environment = environment;
-    if (!token || strcmp(token, TOKEN) != 0)
-        complain(c, FAILED, TITLE ": the token is not that of this binary; unpack the FMU again.");
-    else if (!possible)
-        complain(c, FAILED, TITLE ": this FMU was not exported for this kind of use.");
-    else {
-        start(c);
-        return c;
-    }
-    free(c);
-    return NULL;
-}
 
 FMI_EXPORT fmi3Instance FMI(InstantiateModelExchange)(fmi3String name, fmi3String token, fmi3String resources,
                                                       fmi3Boolean visible, fmi3Boolean logging,
                                                       fmi3InstanceEnvironment environment,
                                                       fmi3LogMessageCallback logger) {
     (void)name, (void)resources, (void)visible, (void)logging;
-    return instantiate(token, MODEL_EXCHANGE, environment, logger);
+    const Host host = {.logger = logger, .environment = environment};
+    return instantiate(&host, token, MODEL_EXCHANGE);
 }
 
 FMI_EXPORT fmi3Instance FMI(InstantiateCoSimulation)(fmi3String name, fmi3String token, fmi3String resources,
@@ -71,12 +57,8 @@ FMI_EXPORT fmi3Instance FMI(InstantiateCoSimulation)(fmi3String name, fmi3String
                                                      fmi3LogMessageCallback logger,
                                                      fmi3IntermediateUpdateCallback update) {
     (void)name, (void)resources, (void)visible, (void)logging, (void)intermediate, (void)n_intermediate;
-    Instance *c = instantiate(token, CO_SIMULATION, environment, logger);
-    if (!c) return NULL;
-    c->host.update = update;
-    c->host.event_mode = event_mode;
-    c->host.may_return_early = early_return;
-    return c;
+    const Host host = {logger, environment, update, event_mode, early_return, false};
+    return instantiate(&host, token, CO_SIMULATION);
 }
 
 FMI_EXPORT fmi3Instance FMI(InstantiateScheduledExecution)(fmi3String name, fmi3String token, fmi3String resources,
@@ -87,10 +69,9 @@ FMI_EXPORT fmi3Instance FMI(InstantiateScheduledExecution)(fmi3String name, fmi3
                                                            fmi3LockPreemptionCallback lock,
                                                            fmi3UnlockPreemptionCallback unlock) {
     (void)name, (void)resources, (void)visible, (void)logging, (void)update, (void)lock, (void)unlock;
-    return instantiate(token, 0, environment, logger);
+    const Host host = {.logger = logger, .environment = environment};
+    return instantiate(&host, token, 0);
 }
-
-FMI_EXPORT void FMI(FreeInstance)(fmi3Instance c) { free(c); }
 
 STATUS FMI(EnterInitializationMode)(fmi3Instance c, fmi3Boolean has_tolerance, fmi3Float64 tolerance, fmi3Float64 time,
                                     fmi3Boolean has_end, fmi3Float64 end) {
@@ -99,24 +80,10 @@ STATUS FMI(EnterInitializationMode)(fmi3Instance c, fmi3Boolean has_tolerance, f
     return fmi3OK;
 }
 
-#define NOTHING(name)             \
-    STATUS FMI(name)(fmi3Instance c) { \
-        (void)c;                  \
-        return fmi3OK;            \
-    }
-
 NOTHING(EnterStepMode)
 NOTHING(EnterConfigurationMode)
 NOTHING(ExitConfigurationMode)
 NOTHING(EvaluateDiscreteStates)
-NOTHING(Terminate)
-
-STATUS FMI(ExitInitializationMode)(fmi3Instance c) { return (fmi3Status)end_start(c); }
-
-STATUS FMI(Reset)(fmi3Instance c) {
-    start(c);
-    return fmi3OK;
-}
 
 /* -- values --------------------------------------------------------------------------------------- */
 
@@ -226,31 +193,6 @@ STATUS FMI(GetVariableDependencies)(fmi3Instance c, fmi3ValueReference reference
     return (fmi3Status)complain(c, FAILED, TITLE ": dependencies are in modelDescription.xml.");
 }
 
-/* -- the state of the FMU --------------------------------------------------------------------------- */
-
-STATUS FMI(GetFMUState)(fmi3Instance c, fmi3FMUState *state) { return (fmi3Status)keep(c, state); }
-
-STATUS FMI(SetFMUState)(fmi3Instance c, fmi3FMUState state) { return (fmi3Status)restore(c, state); }
-
-STATUS FMI(FreeFMUState)(fmi3Instance c, fmi3FMUState *state) {
-    (void)c;
-    return (fmi3Status)forget(state);
-}
-
-STATUS FMI(SerializedFMUStateSize)(fmi3Instance c, fmi3FMUState state, size_t *size) {
-    (void)c, (void)state;
-    *size = sizeof(State);
-    return fmi3OK;
-}
-
-STATUS FMI(SerializeFMUState)(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
-    return (fmi3Status)serialize(c, state, bytes, size);
-}
-
-STATUS FMI(DeserializeFMUState)(fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state) {
-    return (fmi3Status)deserialize(c, bytes, size, state);
-}
-
 /* -- derivatives ---------------------------------------------------------------------------------- */
 
 STATUS FMI(GetDirectionalDerivative)(fmi3Instance c, const fmi3ValueReference unknowns[], size_t n_unknowns,
@@ -267,10 +209,6 @@ STATUS FMI(GetAdjointDerivative)(fmi3Instance c, const fmi3ValueReference unknow
 
 /* -- model exchange ------------------------------------------------------------------------------- */
 
-STATUS FMI(EnterEventMode)(fmi3Instance c) { return (fmi3Status)hold_outside(c, 0); }
-
-STATUS FMI(EnterContinuousTimeMode)(fmi3Instance c) { return (fmi3Status)hold_outside(c, 1); }
-
 STATUS FMI(UpdateDiscreteStates)(fmi3Instance c, fmi3Boolean *again, fmi3Boolean *terminate, fmi3Boolean *nominals,
                                  fmi3Boolean *states, fmi3Boolean *has_next, fmi3Float64 *next) {
     int changed, timed;
@@ -279,39 +217,6 @@ STATUS FMI(UpdateDiscreteStates)(fmi3Instance c, fmi3Boolean *again, fmi3Boolean
     *states = changed;
     *has_next = timed;
     return (fmi3Status)status;
-}
-
-STATUS FMI(CompletedIntegratorStep)(fmi3Instance c, fmi3Boolean no_return, fmi3Boolean *event, fmi3Boolean *end) {
-    (void)no_return;
-    completed(c);
-    *event = outside_changes(c) != 0;
-    *end = false;
-    return fmi3OK;
-}
-
-STATUS FMI(SetTime)(fmi3Instance c, fmi3Float64 time) {
-    begin(c, time);
-    return fmi3OK;
-}
-
-STATUS FMI(SetContinuousStates)(fmi3Instance c, const fmi3Float64 x[], size_t n) {
-    return (fmi3Status)each_state(c, STATES, NULL, x, n);
-}
-
-STATUS FMI(GetContinuousStates)(fmi3Instance c, fmi3Float64 x[], size_t n) {
-    return (fmi3Status)each_state(c, STATES, x, NULL, n);
-}
-
-STATUS FMI(GetContinuousStateDerivatives)(fmi3Instance c, fmi3Float64 dx[], size_t n) {
-    return (fmi3Status)each_state(c, DERIVATIVES, dx, NULL, n);
-}
-
-STATUS FMI(GetEventIndicators)(fmi3Instance c, fmi3Float64 indicators[], size_t n) {
-    return (fmi3Status)get_indicators(c, indicators, n);
-}
-
-STATUS FMI(GetNominalsOfContinuousStates)(fmi3Instance c, fmi3Float64 values[], size_t n) {
-    return (fmi3Status)nominals(c, values, n);
 }
 
 STATUS FMI(GetNumberOfEventIndicators)(fmi3Instance c, size_t *n) {

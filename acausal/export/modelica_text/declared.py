@@ -7,11 +7,8 @@ from collections.abc import Iterator
 from itertools import count
 from typing import Any
 
-import numpy as np
-import sympy as sp
-
 from acausal.export.modelica_text.spelling import class_name, comment, identifier, modifiers, unit
-from acausal.modeling import Component, Connector, Discrete, Flow, Output, Start, references
+from acausal.modeling import Component, Connector, Discrete, Flow, Output
 
 Flat = dict[tuple[str, ...], str]
 """Texts of modifiers, by the names on the way to them."""
@@ -22,18 +19,6 @@ ELEMENT = re.compile(r"(.+)\[[0-9,]+\]")
 def is_integer(declared: Any) -> bool:
     """Whether a variable has the type Integer."""
     return isinstance(declared, Discrete) and declared.kind != "real"
-
-
-def lies_within(value: Any, component: Component) -> bool:
-    """Whether a value refers to nothing outside of a component."""
-    values = [value.value] if isinstance(value, Start) else [value]
-    for one in values:
-        for element in np.ravel(np.asarray(one, dtype=object)):
-            if isinstance(element, sp.Expr) and any(
-                r.owner.route_from(component._node) is None for r in references(element)
-            ):
-                return False
-    return True
 
 
 def numbered(wanted: str) -> Iterator[str]:

@@ -14,11 +14,11 @@ Rule = Callable[[Body, Equation, Sequence[BlockTerm]], Sequence[BlockTerm]]
 
 TEXTS: dict[str, str] = {
     "abs": "abs({0})", "acos": "acos({0})", "add": "({0} + {1})", "add_any": "({0} + {1})", "asin": "asin({0})",
-    "atan": "atan({0})", "atan2": "atan2({0}, {1})", "convert_element_type": "{0}", "copy": "{0}", "cos": "cos({0})",
+    "atan": "atan({0})", "atan2": "atan2({0}, {1})", "convert_element_type": "{0}", "cos": "cos({0})",
     "cosh": "cosh({0})", "div": "({0}/{1})", "exp": "exp({0})", "expm1": "(exp({0}) - 1)", "log": "log({0})",
     "log1p": "log(1 + {0})", "logistic": "(1/(1 + exp(-{0})))", "max": "max({0}, {1})", "min": "min({0}, {1})",
     "mul": "({0}*{1})", "neg": "(-{0})", "pow": "({0}^{1})", "rsqrt": "(1/sqrt({0}))", "sin": "sin({0})",
-    "sinh": "sinh({0})", "sqrt": "sqrt({0})", "square": "({0}^2)", "stop_gradient": "{0}", "sub": "({0} - {1})",
+    "sinh": "sinh({0})", "sqrt": "sqrt({0})", "square": "({0}^2)", "sub": "({0} - {1})",
     "tan": "tan({0})", "tanh": "tanh({0})", "clamp": "min(max({1}, {0}), {2})",
     "sign": "noEvent(if {0} > 0 then 1 else if {0} < 0 then -1 else 0)",
 }  # fmt: skip
@@ -31,7 +31,7 @@ CONDITIONS: dict[str, str] = {
 }  # fmt: skip
 """Conditions; Modelica has no equality of real numbers."""
 
-SETTLED = {
+KNOWN_CONDITIONS = {
     "(not true)": "false", "(not false)": "true", "(true and true)": "true", "(false or false)": "false",
     "(true and false)": "false", "(false and true)": "false", "(false and false)": "false",
 }  # fmt: skip
@@ -81,7 +81,9 @@ def _unchanged(equation: Equation, terms: Sequence[BlockTerm]) -> BlockTerm | No
     return None
 
 
-def _settled(equation: Equation, terms: Sequence[BlockTerm], texts: Sequence[str]) -> str | None:
+def _known_condition(
+    equation: Equation, terms: Sequence[BlockTerm], texts: Sequence[str]
+) -> str | None:
     """A condition that is known: of a number and itself, or infinity."""
     name = name_of(equation)
     if name in ("and", "or", "not"):
@@ -106,11 +108,11 @@ def _elementwise(template: str, truth: bool) -> Rule:
 
         def element(index: Index) -> str:
             texts = _each(terms, shape, index)
-            settled = _settled(equation, terms, texts) if truth else None
-            if settled is not None:
-                return settled
+            known = _known_condition(equation, terms, texts) if truth else None
+            if known is not None:
+                return known
             found = template.format(*texts)
-            return SETTLED.get(found, found)
+            return KNOWN_CONDITIONS.get(found, found)
 
         plain = template == "{0}" and all(t.is_plain for t in terms)
         whole = terms[0].whole if template == "{0}" else None

@@ -23,7 +23,7 @@ from acausal.export.traced import walk
 Value = BlockTerm | np.ndarray
 
 
-def block_of(name: str, network: Callable[..., Any], orders: Sequence[int]) -> str:
+def block_class(name: str, network: Callable[..., Any], orders: Sequence[int]) -> str:
     """The text of a block with inputs ``x1``, ``x2``, ... (``x`` if there is one) and the output ``y``.
 
     Arguments:

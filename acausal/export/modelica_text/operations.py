@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import jax.numpy as jnp
 import numpy as np
 
-from acausal._jax import Equation, bind, name_of
+from acausal._jax import Equation, name_of
 from acausal.export.modelica_text.elementwise import ELEMENTWISE, Rule, refuse, shape_of
 from acausal.export.modelica_text.lines import BlockTerm, Body, Index, elements, shifted
+from acausal.export.traced import places
 
 
 def _moved(place: Callable[[Equation, tuple[int, ...], Index], Index]) -> Rule:
@@ -118,15 +118,14 @@ def _pad(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[Bl
 
 
 def _gathered(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
-    """Elements at places that are known: numbered, and moved by the operation itself."""
+    """Elements at places that are known."""
     x, where = terms
     if where.value is None or not x.shape:
         raise refuse(equation)
-    numbers = jnp.arange(int(np.prod(x.shape))).reshape(x.shape)
-    (chosen,) = bind(equation, [numbers, jnp.asarray(where.value)])
-    places = np.stack(np.unravel_index(np.asarray(chosen).ravel(), x.shape), axis=-1) + 1
+    (chosen,) = places(equation, [x, where.value], (0,))
+    sources = np.stack(np.unravel_index(chosen.ravel(), x.shape), axis=-1) + 1
     name = block.declare(shape_of(equation))
-    for target, source in zip(np.ndindex(*shape_of(equation)), places, strict=True):
+    for target, source in zip(np.ndindex(*shape_of(equation)), sources, strict=True):
         left = elements(name)(tuple(str(i + 1) for i in target))
         block.equations.append(f"{left} = {x.at(tuple(map(str, source)))};")
     return [BlockTerm(block, shape_of(equation), elements(name), whole=name, plain=True)]
@@ -179,10 +178,6 @@ def _reduce(function: str) -> Rule:
     return rule
 
 
-def _same(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> Sequence[BlockTerm]:
-    return terms
-
-
 RULES: dict[str, Rule] = {
     **ELEMENTWISE,
     "broadcast_in_dim": _moved(_broadcast),
@@ -190,7 +185,6 @@ RULES: dict[str, Rule] = {
     "dot_general": _dot,
     "expand_dims": _moved(_reshape),
     "gather": _gathered,
-    "optimization_barrier": _same,
     "pad": _pad,
     "reduce_max": _reduce("max"),
     "reduce_min": _reduce("min"),

@@ -15,7 +15,6 @@ from acausal.export.modelica_text.declared import (
     Flat,
     connector_class,
     is_integer,
-    lies_within,
     names_in_class,
     names_in_tree,
     numbered,
@@ -23,7 +22,7 @@ from acausal.export.modelica_text.declared import (
 )
 from acausal.export.modelica_text.discrete import is_discrete, stated
 from acausal.export.modelica_text.expressions import AtEvents, Names, Printer, equation, instants
-from acausal.export.modelica_text.network import block_of
+from acausal.export.modelica_text.network import block_class
 from acausal.export.modelica_text.spelling import (
     array,
     class_name,
@@ -50,6 +49,7 @@ from acausal.modeling import (
     owner_and_name,
     references,
 )
+from acausal.netlist import lies_within
 
 
 @dataclass
@@ -114,7 +114,7 @@ class Package:
         if key not in self.blocks:
             suffix = "_d" + "".join(map(str, orders)) if any(orders) else ""
             wanted = f"{name[0].upper()}{name[1:]}{suffix}"
-            self.blocks[key] = self.add(wanted, lambda n: block_of(n, module, orders))
+            self.blocks[key] = self.add(wanted, lambda n: block_class(n, module, orders))
         return self.blocks[key]
 
     def model(self, component: Component, wanted: str, inputs: Sequence[str] | None = None) -> str:
@@ -336,14 +336,14 @@ class ClassWriter:
     def _attributes(self, declared: Variable, each: str) -> dict[str, str]:
         """Start, fixed, nominal and priority, each perhaps that of another attribute of the component."""
 
-        def settled(given: Any) -> Any:
+        def value_of(given: Any) -> Any:
             return getattr(self.component, given) if isinstance(given, str) else given
 
         found: dict[str, str] = {}
-        start, fixed, nominal = map(settled, (declared.start, declared.fixed, declared.nominal))
+        start, fixed, nominal = map(value_of, (declared.start, declared.fixed, declared.nominal))
         state = declared.state
         if state not in ("never", "avoid", "default", "prefer", "always"):
-            state = settled(state)
+            state = value_of(state)
         if isinstance(start, sp.Basic | list | tuple | np.ndarray) or start != 0 or fixed:
             bare = isinstance(start, list | tuple | np.ndarray)
             found["start" if bare else f"{each}start"] = self._start(declared, start)
@@ -384,7 +384,8 @@ class ClassWriter:
         found: Flat = {}
         top = self.component._node.children[path[0]] if path else part
         for name, value in part._node.modifiers.items():
-            if not lies_within(value, self.component) or (path and lies_within(value, top)):
+            given = value.value if isinstance(value, Start) else value
+            if not lies_within(self.component, given) or (path and lies_within(top, given)):
                 continue
             first, *rest = name.split(".")
             held = self.package.names(part._node)[1]

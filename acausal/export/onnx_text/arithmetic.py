@@ -212,14 +212,9 @@ def _round(site: Site) -> list[str]:
     return [g.add("Mul", g.add("Sign", x), up)]
 
 
-def _same(site: Site) -> list[str | Value]:
-    return list(site.values)
-
-
 RULES: dict[str, Rule] = {
     **{name: same(operation) for name, operation in SAME.items()},
     **{name: logical(operation) for name, operation in LOGICAL.items()},
-    **dict.fromkeys(("copy", "copy_p", "stop_gradient", "optimization_barrier"), _same),
     "acos": _composed(lambda g, x: _angle(g, _leg(g, x), x)),
     "acosh": _composed(_acosh),
     "asin": _composed(lambda g, x: _angle(g, x, _leg(g, x))),

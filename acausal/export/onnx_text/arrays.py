@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import string
 from collections.abc import Sequence
 from typing import Any
 
-import jax.numpy as jnp
 import numpy as np
 
 from acausal._jax import bind
 from acausal.export.onnx_text.builder import WHOLE, OnnxGraph, Rule, Site, Tensor, Value
+from acausal.export.traced import places, subscripts
 
 
 def _axes(site: Site, *axes: int) -> str:
@@ -127,7 +126,7 @@ def _gather(site: Site) -> list[str]:
     ):
         return [_take(site, int(mapped[0]), numbers.offset_dims)]
     if isinstance(indices, np.ndarray) and _is_fixed(operand):
-        return [_renumbered(site, [operand], [indices])]
+        return [_renumbered(site, 0)]
     raise site.refuse("with indices that are computed")
 
 
@@ -159,25 +158,18 @@ def _scatter(site: Site) -> list[str]:
     """Where the indices are known, a choice among the elements of both arrays."""
     operand, indices, updates = site.values
     if isinstance(indices, np.ndarray) and _is_fixed(operand) and _is_fixed(updates):
-        return [_renumbered(site, [operand, updates], [indices], at=1)]
+        return [_renumbered(site, 0, 2)]
     raise site.refuse("with indices that are computed")
 
 
-def _renumbered(
-    site: Site, moved: Sequence[Value], fixed: Sequence[np.ndarray], at: int = 1
-) -> str:
-    """Elements that an operation moves: found by the operation itself, applied to their numbers."""
-    g, numbers, count = site.graph, [], 0
-    for value in moved:
-        size = int(np.prod(value.shape, dtype=int))
-        numbers.append(jnp.arange(count, count + size, dtype=jnp.int64).reshape(value.shape))
-        count += size
-    arguments = [*numbers[:at], *map(jnp.asarray, fixed), *numbers[at:]]
-    (found,) = bind(site.equation, arguments)
-    chosen = np.asarray(found)
+def _renumbered(site: Site, *moved: int) -> str:
+    """Elements of some arguments that an operation moves."""
+    g, values = site.graph, [site.values[k] for k in moved]
+    (chosen,) = places(site.equation, site.values, moved)
+    count = sum(int(np.prod(v.shape, dtype=int)) for v in values)
     if chosen.size and not 0 <= chosen.min() <= chosen.max() < count:
         raise site.refuse("with indices outside of the array")
-    flat = [g.add("Reshape", g.read(v), g.integers(-1)) for v in moved]
+    flat = [g.add("Reshape", g.read(v), g.integers(-1)) for v in values]
     every = flat[0] if len(flat) == 1 else g.add("Concat", *flat, axis=0)
     return g.add("Gather", every, g.constant(chosen, np.int64), axis=0)
 
@@ -273,7 +265,8 @@ def _dot(site: Site) -> list[str]:
         a = _turned(g, one) if turned[0] else g.read(one)
         b = _turned(g, two) if turned[1] else g.read(two)
         return [g.add("MatMul", a, b)]
-    return _einsum(site, ranks)
+    equation = subscripts(site.params["dimension_numbers"], ranks)
+    return [g.add("Einsum", *site.names, equation=equation)]
 
 
 def _turned(g: OnnxGraph, matrix: Value) -> str:
@@ -281,25 +274,6 @@ def _turned(g: OnnxGraph, matrix: Value) -> str:
     if isinstance(matrix, Tensor):
         return g.add("Transpose", matrix.name, perm=[1, 0])
     return g.constant(matrix.T)
-
-
-def _einsum(site: Site, ranks: Sequence[int]) -> list[str]:
-    (left, right), (batch_left, batch_right) = site.params["dimension_numbers"]
-    letters = iter(string.ascii_letters)
-    one, two = [""] * ranks[0], [""] * ranks[1]
-    shared = list(zip(batch_left, batch_right, strict=True))
-    for i, j in [*shared, *zip(left, right, strict=True)]:
-        one[i] = two[j] = next(letters)
-    one = [letter or next(letters) for letter in one]
-    two = [letter or next(letters) for letter in two]
-    out = [one[i] for i in batch_left]
-    out += [c for i, c in enumerate(one) if i not in (*batch_left, *left)]
-    out += [c for j, c in enumerate(two) if j not in (*batch_right, *right)]
-    return [
-        site.graph.add(
-            "Einsum", *site.names, equation=f"{''.join(one)},{''.join(two)}->{''.join(out)}"
-        )
-    ]
 
 
 RULES: dict[str, Rule] = {

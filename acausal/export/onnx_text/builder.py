@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import count
-from typing import Any, Protocol, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from jax.extend.core import ClosedJaxpr
@@ -124,14 +124,8 @@ class OnnxGraph:
         return self.add("Cast", name, to=self.kind(dtype))
 
 
-class Lowers(Protocol):
-    """Adds the nodes of a jaxpr to a graph."""
-
-    def __call__(
-        self, graph: OnnxGraph, closed: ClosedJaxpr, values: Sequence[Value]
-    ) -> list[Value]:
-        """The values of its results."""
-        ...
+Lowers: TypeAlias = "Callable[[OnnxGraph, ClosedJaxpr, Sequence[Value]], list[Value]]"
+"""Adds the nodes of a jaxpr to a graph: from the values of its arguments to those of its results."""
 
 
 @dataclass(frozen=True)

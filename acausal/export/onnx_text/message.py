@@ -9,8 +9,10 @@ import numpy as np
 from jax.extend.core import ClosedJaxpr
 from onnx import ModelProto, NodeProto, checker, helper, numpy_helper
 
-from acausal.export.onnx_text.builder import OnnxGraph, Tensor, Value
-from acausal.export.onnx_text.table import lower
+from acausal._jax import Equation, name_of
+from acausal.export.onnx_text import arithmetic, arrays, control
+from acausal.export.onnx_text.builder import OnnxGraph, Rule, Site, Tensor, Value, results
+from acausal.export.traced import walk
 
 OPSET, IR = 18, 9
 """Versions of the operators and of the format: of 2023, so that older run times read the files."""
@@ -88,3 +90,30 @@ def _reads(node: NodeProto) -> set[str]:
             names |= {name for inner in attribute.g.node for name in _reads(inner)}
             names |= {output.name for output in attribute.g.output}
     return names
+
+
+TABLE: dict[str, Rule] = {**arithmetic.RULES, **arrays.RULES, **control.RULES}
+"""By operation of JAX, how its nodes are made."""
+
+
+def lower(graph: OnnxGraph, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Value]:
+    """Add the nodes of a jaxpr; what is known already is computed now.
+
+    Arguments:
+        values: its arguments.
+
+    Returns:
+        Its results.
+
+    Raises:
+        DataError: for an operation that has no counterpart in ONNX.
+    """
+
+    def apply(equation: Equation, arguments: list[Value], _: str) -> list[Value]:
+        site = Site(graph, equation, tuple(arguments), lower)
+        rule = TABLE.get(name_of(equation))
+        if rule is None:
+            raise site.refuse()
+        return results(equation, rule(site))
+
+    return walk(closed, values, apply, kept=control.RULES)

@@ -16,7 +16,8 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import without_derivatives
-from acausal.simulation.newton import Equation, Fields, Newton, NewtonMatrix, Patience, Rates, solve
+from acausal.codegen import StateJacobian
+from acausal.simulation.newton import Equation, Fields, Newton, Patience, Rates, solve
 from acausal.simulation.steps.multistep import (
     HARMONIC,
     MOST,
@@ -102,11 +103,11 @@ class Multistep(eqx.Module):
     """The method.
 
     Attributes:
-        matrix: how the equations of a step are solved.
+        jacobian: the model's, by which the equations of a step are solved.
     """
 
     name: ClassVar[str] = "BDF"
-    matrix: NewtonMatrix
+    jacobian: StateJacobian = eqx.field(static=True)
 
     def begin(self, problem: Integration, t: Array, x: State) -> tuple[MultistepMemory, Counts]:
         """What is known at the begin, or after a jump: one state."""
@@ -114,6 +115,10 @@ class Multistep(eqx.Module):
         back = jnp.arange(POINTS)
         states = x - (h * back)[:, None].astype(x.dtype) * lax.stop_gradient(f)
         zero, one = jnp.zeros((), jnp.int32), jnp.ones((), jnp.int32)
+        entries = jnp.zeros(
+            self.jacobian.n_entries, x.dtype
+        )  # factors of the identity, to be renewed
+        matrix = self.jacobian.iteration_matrix.factorize(entries, jnp.zeros((), x.dtype))
         memory = MultistepMemory(
             h,
             states,
@@ -122,7 +127,7 @@ class Multistep(eqx.Module):
             one,
             2 * one,
             zero,
-            self.matrix.empty(x),
+            matrix,
             jnp.ones_like(h),
             zero,
             jnp.array(True),
@@ -153,12 +158,12 @@ class Multistep(eqx.Module):
         renew = m.stale | (m.age >= KEEP) | (jnp.abs(c / m.c - 1) > RENEW)
         matrix, made_for = lax.cond(
             renew,
-            lambda: (self.matrix.renewed(problem.field.at(end), predicted, c), c),
+            lambda: (self.jacobian.factorized(problem.field.at(end), predicted, c), c),
             lambda: (m.matrix, m.c),
         )
         scale, tolerances = 2 / (1 + c / made_for), problem.tolerances
         newton = solve(
-            equation, self.matrix, matrix, predicted, tolerances, LEFT / constant, PATIENCE, scale
+            equation, self.jacobian, matrix, predicted, tolerances, LEFT / constant, PATIENCE, scale
         )
         x, exact = lax.stop_gradient(newton.x), newton.x
         error = constant * problem.size(x - predicted, x_before, x)
@@ -171,7 +176,7 @@ class Multistep(eqx.Module):
 
         def size(share: Any) -> Array:  # solved with the matrix, as fast modes would count else
             _, r = defect(self, problem, inside, begin, length, share)
-            return problem.size(self.matrix.solve(fixed, r), x_before, found)
+            return problem.size(self.jacobian.iteration_matrix.solve(fixed, r), x_before, found)
 
         look = look_inside(problem, error, INSIDE, size, OF_DEFECT)
         looked = (error < 1) & (look.error >= 1)
@@ -293,8 +298,8 @@ class Multistep(eqx.Module):
 
         if len(problem.ts):
             _, adjoint = lax.while_loop(lambda a: a[0] < which[1], add, (which[0], adjoint))
-        matrix = self.matrix.renewed(problem.field.at(equation.t), row.x, equation.c)
-        multiplier = self.matrix.solve_transposed(matrix, adjoint[0])
+        matrix = self.jacobian.factorized(problem.field.at(equation.t), row.x, equation.c)
+        multiplier = self.jacobian.iteration_matrix.solve(matrix, adjoint[0], transposed=True)
 
         def rates(own: list[Array]) -> State:
             return of_moved(own)[1].field(equation.t, row.x)

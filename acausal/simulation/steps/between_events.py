@@ -213,15 +213,17 @@ def land(
     if problem.field.has_edges:
         begins = begins | (seen.ok & (row.kind == EDGE))
 
-    def begun() -> tuple[Any, Counts]:
-        behind = problem.held(landing.d)
-        if problem.field.has_edges:
-            behind = behind.sided(landing.t, jnp.full_like(landing.t, jnp.inf))
-        first, cost = method.begin(behind, landing.t, landing.x)
-        return method.resumed(first, landing.memory), cost
-
+    begun = lambda: begun_again(method, problem.held(landing.d), landing)  # noqa: E731
     kept, cost = cond_any(begins, begun, lambda: (landing.memory, landing.cost))
     return landing._replace(memory=kept, cost=cost)
+
+
+def begun_again(method: Any, problem: Integration, landing: Landing) -> tuple[Any, Counts]:
+    """What a method knows where it begins again, and what that cost; an edge is seen from its other side."""
+    if problem.field.has_edges:
+        problem = problem.sided(landing.t, jnp.full_like(landing.t, jnp.inf))
+    memory, cost = method.begin(problem, landing.t, landing.x)
+    return method.resumed(memory, landing.memory), cost
 
 
 def after(

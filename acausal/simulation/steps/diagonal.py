@@ -23,10 +23,6 @@ class Diagonal(OneStep):
 
     scheme: ImplicitScheme
 
-    def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> State:
-        """The derivative."""
-        return f
-
     def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: State) -> Made:
         """One step."""
         tableau = self.scheme.tableau

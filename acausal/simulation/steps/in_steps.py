@@ -9,9 +9,9 @@ import diffrax as dfx
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import array, cast, known, traced
+from acausal._jax import array, cast, is_real, known, traced
 from acausal.codegen import Field, Packed
-from acausal.errors import SimulationError, StepLimitError, listing
+from acausal.errors import DataError, SimulationError, StepLimitError, listing, shown
 from acausal.events import Ahead, non_converged
 from acausal.simulation import solvers
 from acausal.simulation.inputs import TimeFunction, breaks, evaluate, evaluate_all
@@ -23,7 +23,8 @@ from acausal.simulation.steps.loop import CHATTERS, EXHAUSTED, NOT_CONVERGED, RE
 from acausal.simulation.steps.methods import paced
 from acausal.simulation.steps.problem import Integration, RightHandSide
 from acausal.simulation.steps.solve import FirstRun, Solved, begin_to_compile, first_run, solve
-from acausal.simulation.steps.tolerances import Tolerance
+
+Tolerance = float | Array
 
 
 class ModelField(RightHandSide):
@@ -186,3 +187,31 @@ def _last(run: Run, found: LoopResult) -> str:
         return ""
     words = list(dict.fromkeys(words for _, words in found.log.conditions(run.system)[-6:]))
     return f" ({'; '.join(words)})" if words else ""
+
+
+def check_tolerances(rtol: Tolerance, atol: Tolerance, n_states: int) -> None:
+    """Refuse tolerances with which no step can be accepted.
+
+    Raises:
+        DataError: for one that is negative or not a finite number, nor one such number for each state; or if all
+            are zero.
+    """
+    for name, given in {"rtol": rtol, "atol": atol}.items():
+        if not _is_tolerance(given, n_states):
+            raise DataError(
+                f"{name}={shown(given)} is not a tolerance; give a positive number, such as {name}=1e-6, or an array "
+                "of one for each state."
+            )
+    if traced(rtol, atol):
+        return
+    if not (np.any(rtol) or np.any(atol)):
+        raise DataError("rtol and atol are both zero; give rtol=1e-6, say.")
+
+
+def _is_tolerance(given: Tolerance, n_states: int) -> bool:
+    """Whether this is a finite number, or an array of these, none below zero where they are known."""
+    if not is_real(given) or isinstance(given, list | tuple):
+        return False
+    if np.shape(given) not in ((), (n_states,)):
+        return False
+    return traced(given) or bool((np.isfinite(given) & (np.asarray(given) >= 0)).all())

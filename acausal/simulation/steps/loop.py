@@ -323,7 +323,7 @@ def _edge(problem: Integration, ahead: Ahead, stop: between_events.Stop) -> betw
 def _begun_again(
     method: Any, problem: Integration, row: Row, landing: Landing, moved: Array | None
 ) -> Landing:
-    """The method begins anew behind a jump of the right-hand side, and where another run begins.
+    """The method begins again behind a jump of the right-hand side, and where another run begins.
 
     ``moved`` is zero and has the derivative of an edge's time: the state behind it moves by the difference of both
     sides. None where derivatives in forward mode are not wanted.
@@ -334,12 +334,11 @@ def _begun_again(
         field, there, apart = sides
         change = field(t - apart, there) - field(t + apart, there)
         x = x + jnp.where(row.kind == EDGE, moved, 0.0) * lax.stop_gradient(change)
-    if problem.field.has_edges:  # what follows an edge is seen from its other side
-        problem = problem.sided(landing.t, jnp.full_like(landing.t, jnp.inf))
     if problem.first is not None:
         x = jnp.where(row.kind == RESTART, restarted(problem, row.which)[0], x)
-    memory, cost = method.begin(problem, landing.t, x)
-    return landing._replace(x=x, memory=method.resumed(memory, landing.memory), cost=cost)
+    landing = landing._replace(x=x)
+    memory, cost = between_events.begun_again(method, problem, landing)
+    return landing._replace(memory=memory, cost=cost)
 
 
 def _save(

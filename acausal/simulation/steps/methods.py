@@ -12,7 +12,6 @@ from acausal.simulation import solvers
 from acausal.simulation.newton import (
     ADAPTIVE,
     FIXED,
-    NewtonMatrix,
     Patience,
     Tolerances,
     fixed_tolerances,
@@ -48,7 +47,7 @@ def method_of(solver: solvers.Solver, problem: Integration, jacobian: StateJacob
     """
     solver = solvers.for_adaptive_steps(solver)
     if isinstance(solver, solvers.BDF):
-        return Multistep(NewtonMatrix(jacobian))
+        return Multistep(jacobian)
     if isinstance(solver, dfx.AbstractRungeKutta | dfx.ImplicitEuler):
         return _one_step(solver, tableau_of(solver), jacobian, problem.tolerances, ADAPTIVE)
     return Foreign(solver)
@@ -69,5 +68,5 @@ def _one_step(
 ) -> Explicit | Diagonal:
     if not tableau.is_implicit:
         return Explicit(solver)
-    scheme = ImplicitScheme(tableau, NewtonMatrix(jacobian), tolerances, patience)
+    scheme = ImplicitScheme(tableau, jacobian, tolerances, patience)
     return Diagonal(solver, scheme)

@@ -139,9 +139,9 @@ class OneStep(eqx.Module):
         """For messages."""
         return type(self.solver).__name__
 
-    @abstractmethod
     def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> Any:
-        """What the first step, or one after a jump, may use."""
+        """What the first step, or one after a jump, may use: the derivative."""
+        return f
 
     @abstractmethod
     def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: Any) -> Made:

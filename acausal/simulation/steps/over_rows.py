@@ -85,19 +85,23 @@ class Clock(RightHandSide):
 
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """The next of these times, by the clock; within a row, as another run may begin behind it."""
-        row = jnp.clip(
-            jnp.searchsorted(self.edges, t + apart, side="right") - 1, 0, len(self.edges) - 2
-        )
-        packed = self.packed
-        if self.own is not None:
-            packed = packed.replaced(self.places, self.own[row])
+        row = self._row(t + apart)
         shift = self.steps.t[row] - self.edges[row]
-        found = self.system.edges.ahead(packed, t + shift, apart, self.d)
+        found = self.system.edges.ahead(self._packed(row), t + shift, apart, self.d)
         jump = found.jump - shift
         if self.steps.parts is not None:
             cuts = self.edges[row] + self.steps.parts.cuts[row] * self._length(row)
             jump = jnp.minimum(jump, jnp.min(jnp.where(cuts > t + apart, cuts, jnp.inf)))
         return Ahead(jump, found.bend - shift, found.longest)
+
+    def _row(self, t: Array) -> Array:
+        """In which row a time lies."""
+        row = jnp.searchsorted(self.edges, t, side="right") - 1
+        return jnp.clip(row, 0, len(self.edges) - 2)
+
+    def _packed(self, row: Array) -> Packed:
+        """The parameters of a row."""
+        return self.packed if self.own is None else self.packed.replaced(self.places, self.own[row])
 
     def _length(self, row: Array) -> Array:
         """Of a row."""
@@ -105,9 +109,8 @@ class Clock(RightHandSide):
 
     def at(self, t: Array) -> Field:
         """It at one time of the clock."""
-        steps, edges = self.steps, self.edges
-        early = t if self.until is None else jnp.minimum(t, self.until)
-        row = jnp.clip(jnp.searchsorted(edges, early, side="right") - 1, 0, len(edges) - 2)
+        steps = self.steps
+        row = self._row(t if self.until is None else jnp.minimum(t, self.until))
         begin, start, end, coefficients, parts = (
             jax.tree.map(lambda a: a[row], part)
             for part in (
@@ -120,12 +123,9 @@ class Clock(RightHandSide):
         )
         h = self._length(row)
         step = Step(begin, h, start, end, coefficients, parts)
-        fraction = (t - edges[row]) / h
+        fraction = (t - self.edges[row]) / h
         u = step.inputs(fraction, steps.inputs.functions)
-        packed = self.packed
-        if self.own is not None:
-            packed = packed.replaced(self.places, self.own[row])
-        return self.system.field(step.time(fraction), u, packed, self.d)
+        return self.system.field(step.time(fraction), u, self._packed(row), self.d)
 
 
 def integrate_in_steps(

@@ -43,7 +43,8 @@ class Paced(OneStep):
         """What is known at the begin, or after an event."""
         h = jnp.full_like(t, jnp.inf)
         zero = jnp.zeros((), jnp.int32)
-        return Memory(h, x, self._first(problem, t, x), zero, zero), Counts.of(rates=1)
+        first = self.first(problem.field, t, jnp.ones_like(t), x, problem.field(t, x))
+        return Memory(h, x, first, zero, zero), Counts.of(rates=1)
 
     chooses: ClassVar[bool] = False
     """Its steps are given."""
@@ -56,7 +57,3 @@ class Paced(OneStep):
         after = memory._replace(h=again.astype(h.dtype), x=made.x, first=made.first)
         never = jnp.array(False)
         return Attempt(done, made.x, after, made.dense, (), never, never, made.counts)
-
-    def _first(self, problem: Integration, t: Array, x: Array) -> Any:
-        h = jnp.ones_like(t)
-        return self.first(problem.field, t, h, x, problem.field(t, x))

@@ -25,10 +25,6 @@ XLA compiles the loop of a small model as a whole if all stages are written out,
 class Explicit(OneStep):
     """An explicit Runge–Kutta scheme."""
 
-    def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> State:
-        """The derivative."""
-        return f
-
     def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: State) -> Made:
         """One step."""
         tableau = tableau_of(self.solver)
