@@ -57,7 +57,7 @@ def step_ends(start: float, end: float, dt: float, width: int) -> Float[np.ndarr
             f"Steps of dt={dt:g} s do not divide the {span:g} s from {start:g} to {end:g} s; "
             f"choose dt={span:g}/{n}, or end at {start + n * dt:g} s."
         )
-    return start + span / n * np.arange(n + 1)
+    return np.append(start + span / n * np.arange(n), end)  # rounding would put the last beyond
 
 
 def rows_of(

@@ -6,6 +6,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import blocks
+from acausal.simulation.step_grid import step_ends
 from tests.support.parts import Equations, model
 
 T, END = 0.7, 4.0
@@ -118,6 +119,14 @@ def test_the_last_sample_of_a_held_input_is_its_own(held):
     sol = ac.simulate(held, (0, 1), dt=0.01, solver="rk4", inputs=data, x0={"x": 0.3})
     np.testing.assert_allclose(sol["x"], x, atol=1e-10)
     np.testing.assert_allclose(sol["y"], 2 * us + x, atol=1e-10)
+
+
+def test_steps_that_an_input_divides_end_where_they_shall(held):
+    for end in np.round(0.01 * np.arange(1, 200), 2):
+        assert step_ends(0.0, end, 0.01, 1)[-1] == end  # 0.35 is not 35 times 0.01
+    step = ac.Signal([0.0, 0.123], [0.0, 1.0], "previous", after_end="hold")
+    sol = ac.simulate(held, 0.35, dt=0.01, solver="rk4", inputs={"u": step}, x0={"x": 0.0})
+    assert float(sol["x"][-1]) == pytest.approx(-np.expm1(0.123 - 0.35), abs=1e-9)
 
 
 def test_a_training_on_exact_data_of_a_held_input_stays_where_it_is(held):

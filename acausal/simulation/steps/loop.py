@@ -130,18 +130,40 @@ def search(
     last, saved, _ = advance(
         method, problem, progress, saved, until_stiff=until_stiff, forward=forward
     )
-    return found(problem, last, saved)
+    return found(problem, last, saved, forward=forward)
 
 
-def found(problem: Integration, last: LoopState, saved: Saved) -> LoopResult:
-    """The result of a run; with events, what is to be saved at its end is what follows the last of them."""
-    log = None
+def found(
+    problem: Integration, last: LoopState, saved: Saved, *, forward: bool = False
+) -> LoopResult:
+    """The result of a run; with events, what is to be saved at its end is what follows the last of them.
+
+    In forward mode, ``last`` may have reached the end at a time that moves.
+    """
+    log, x = None, last.x
     if last.events is not None:
-        left = ((jnp.arange(len(problem.ts)) >= last.next) & (last.why == REACHED))[:, None]
-        at_end = last.x, last.events.d
+        reached = last.why == REACHED
+        left = ((jnp.arange(len(problem.ts)) >= last.next) & reached)[:, None]
+        if forward:
+            rest = rates_behind(problem, last.t, x, last.events.d) * (problem.end - last.t)
+            x = x + jnp.where(reached, rest, 0.0)
+        at_end = x, last.events.d
         saved = jax.tree.map(lambda a, b: jnp.where(left, a, b), at_end, saved)
         log = last.events.log
-    return LoopResult(saved, last.t, last.x, last.d, last.next, last.why, last.counts, log)
+    return LoopResult(saved, last.t, x, last.d, last.next, last.why, last.counts, log)
+
+
+def rates_behind(problem: Integration, t: Array, x: Array, d: Array) -> Float[Array, " n_states"]:
+    """The rates behind an event, without derivatives; zero where they are not finite.
+
+    An event at the end of a run moves: up to the end itself, the state goes on with these rates.
+    """
+    behind = problem.held(d)
+    if problem.field.has_edges:
+        behind = behind.sided(t, jnp.full_like(t, jnp.inf))
+    field, t, x = lax.stop_gradient((without_derivatives(behind).field, t, x))
+    rates = field(t, x)
+    return jnp.where(jnp.isfinite(rates), rates, 0.0)
 
 
 def begin(method: Any, problem: Integration, start: LoopStart) -> tuple[LoopState, Saved]:

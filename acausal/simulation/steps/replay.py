@@ -20,12 +20,14 @@ from acausal.simulation.steps.event_adjoint import (
     through_restart,
 )
 from acausal.simulation.steps.loop import (
+    REACHED,
     LoopResult,
     LoopStart,
     LoopState,
     advance,
     begin,
     found,
+    rates_behind,
     row_like,
     search,
 )
@@ -117,7 +119,7 @@ def _kept(task: Task, until_stiff: bool) -> tuple[LoopResult, RecordedSteps]:
     )
     count, last, saved, parts, rows, n = state
     return found(problem, last, saved), RecordedSteps(
-        parts, count, rows, n, (last.next, last.x, last.d)
+        parts, count, rows, n, (last.next, last.why == REACHED, last.t, last.x, last.d)
     )
 
 
@@ -135,7 +137,7 @@ def _back(
     """The cotangents of what moves."""
     method, problem, _ = of_moved(own)
     size, parts = len(kept.rows.t), kept.parts.t.shape[0]
-    saved_behind, *end = kept.end
+    saved_behind, reached, end_t, *end = kept.end
     totals = [jnp.zeros_like(v) for v in own]
     if problem.events is None:
         last = Adjoint(None, method.adjoint(to.x), None, totals)
@@ -143,7 +145,12 @@ def _back(
         left = (jnp.arange(len(problem.ts)) >= saved_behind)[:, None]
         at_end = (jnp.sum(jnp.where(left, a, 0), axis=0) for a in to.saved)
         to_x, to_d = (a + b for a, b in zip((to.x, to.d), at_end, strict=True))
-        last = Adjoint(to.t, to_x, to_d, totals)
+        rest = rates_behind(problem, end_t, *end) @ to_x
+        rest = jnp.where(
+            reached, rest, 0.0
+        )  # of the state, by the time from the last event to the end
+        totals = jax.vjp(lambda some: of_moved(some)[1].end, own)[1](rest)[0]
+        last = Adjoint(to.t - rest, to_x, to_d, totals)
 
     def part(carry: tuple[Any, ...]) -> tuple[Any, ...]:
         """One part of the run; ``rows`` are its own only where it is the last."""

@@ -119,6 +119,19 @@ def test_a_sampling_period_is_trained(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", some_slow(STEPS, [], [k for k in STEPS if k != "fixed"]))
+def test_an_event_at_the_end_moves_and_the_end_does_not(kind: str) -> None:
+    system = ac.compile(Sampled())
+
+    def end(period: Any) -> Any:
+        params = {**system.parameters(), "period": period}
+        return ac.simulate(system, 1.0, params=params, **STEPS[kind])["x"][-1]
+
+    below = central(lambda period: sampled_end(period, 2.0, 1.0), (0.1 - 2e-7,), 0, 1e-7)
+    for derivative in (jax.grad, jax.jacfwd):
+        assert derivative(end)(0.1) == pytest.approx(below, rel=1e-4)
+
+
+@pytest.mark.parametrize("kind", some_slow(STEPS, [], [k for k in STEPS if k != "fixed"]))
 def test_a_switching_time_and_a_threshold_of_a_later_event(step: ac.System, kind: str) -> None:
     def late(t1: Any, threshold: Any) -> Any:
         params = {**step.parameters(), "t1": t1, "threshold": threshold}
