@@ -21,11 +21,11 @@ from acausal.modelica.syntax import (
     EquationStatement,
     Expression,
     FunctionCall,
-    LiteralConstant,
     Loop,
     Several,
     Statement,
 )
+from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.values import Record, each, elements
 
 MAX_STATEMENTS = 20_000
@@ -284,9 +284,9 @@ class Algorithms(Evaluator):
             self.unwatched(call, "this assertion is not watched while the model runs")
             return
         if self.known(holds, "this assertion") is False:
-            text = (
-                arguments[1].value if isinstance(arguments[1], LiteralConstant) else "it is false"
-            )
+            text = "it is false"
+            with suppress(ModelicaError):  # of what changes with time
+                text = self.value(arguments[1])
             raise self.wrong(f"this assertion is violated: {text}")
 
 

@@ -292,8 +292,12 @@ def _initial(self: Evaluator, call: FunctionCall) -> Any:
 def _string(self: Evaluator, call: FunctionCall) -> Any:
     value = self.value(call.arguments[0]) if call.arguments else ""
     if isinstance(value, sp.Basic):
-        raise self.wrong("a text of what changes with time is not supported")
-    return str(value)
+        if self.varies(value):
+            raise self.wrong("a text of what changes with time is not supported")
+        value = self.known(value, "a text")
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def _resource(self: Evaluator, call: FunctionCall) -> Any:

@@ -43,6 +43,8 @@ WRONG = {
     "model M parameter Real a=b; parameter Real b=a; end M;": "a -> b -> a: each depends on the next",
     "model M parameter Real m(min=0)=-1; end M;": "out of range: at least 0",
     "model M parameter Real k=1; equation assert(k>2,\"k is small\"); end M;": "violated: k is small",
+    "model M parameter Real k=-1; parameter Boolean b=false;"
+    'equation assert(k>0 or b, "k is " + String(k) + ", " + String(b)); end M;': "violated: k is -1, false",
     "function f input Real a; output Real y; algorithm y:=a; for i in 1:25 loop y:=0.5*(y+a/y); end for; end f;"
     "model M Real x=f(1+time); end M;": "'y' becomes an expression of more than 100000 parts; make fewer steps",
     'function f input Real x; algorithm assert(x<2, "x is large"); end f;'
