@@ -5,7 +5,8 @@
     python .ci/machines.py AVX2 -- -k tanks     arguments for pytest
 
 Fails where a test does. Bars that are closer than a fifth to what is measured, and numbers of pages that are not
-printed as they are shown, are listed. What a variation has measured is kept in out/machines/ for the commit that is
+printed as they are shown, are listed. The table shows what moves most between variations, relative to its distance from
+the bar. What a variation has measured is kept in out/machines/ for the commit that is
 checked out: a run that was interrupted goes on with what is missing.
 """
 
@@ -73,20 +74,32 @@ def kept(arguments: list[str]) -> Path | None:
 
 
 def table(found: dict[str, list[dict[str, list]]]) -> list[str]:
-    """By file of tests: how many bars it has, and the nearest of them over all variations."""
+    """By file of tests: how many bars it has, and the one that uses most of its margin.
+
+    What counts is how far a measured value moves between variations, relative to its least distance from the bar.
+    """
+    distances: dict[tuple, list[float]] = defaultdict(list)
+    for parts in found.values():
+        seen: dict[tuple, int] = defaultdict(int)
+        for test, place, text, measured, bar, _ in (row for p in parts for row in p["margins"]):
+            again = seen[test, place, text] = seen[test, place, text] + 1
+            distances[test, place, text, again].append(abs(measured - bar))
     by_file = defaultdict(list)
-    for name, parts in found.items():
-        for part in parts:
-            for _, place, text, measured, bar, apart in part["margins"]:
-                by_file[place.partition(":")[0]].append((apart, measured, bar, place, text, name))
-    rows = ["| file | bars | nearest | measured | bar | margin |", "|---|---|---|---|---|---|"]
+    for (test, place, text, _), apart in distances.items():
+        moved, least = max(apart) - min(apart), min(apart)
+        needed = moved / least if least > 0 else float(moved > 0)
+        by_file[test.partition("::")[0]].append((needed, least, moved, text, place))
+    rows = [
+        "| file | bars | uses most of its margin | distance | moves by | share |",
+        "|---|---|---|---|---|---|",
+    ]
     for file, bars in sorted(by_file.items()):
-        apart, measured, bar, place, text, name = min(bars)
-        count = len({(place, text) for *_, place, text, _ in bars})
-        said = text.replace("|", "\\|")
+        needed, least, moved, text, place = max(bars)
+        said = f"`{text}`".replace("|", "\\|")
+        line = place.partition(":")[2]
         rows.append(
-            f"| {file.removeprefix('tests/')} | {count} | `{said}` (line {place.partition(':')[2]}, {name}) "
-            f"| {measured:.3g} | {bar:.3g} | {apart:.0%} |"
+            f"| {file.removeprefix('tests/')} | {len(bars)} | {said}{f' (line {line})' if line else ''} "
+            f"| {least:.2g} | {moved:.2g} | {needed:.0%} |"
         )
     return rows
 

@@ -35,7 +35,11 @@ from .primitives import (
     scan_of as scan_of,
     shapes as shapes,
 )
-from .programs import collection_paused as collection_paused, compiled as compiled
+from .programs import (
+    collection_paused as collection_paused,
+    compile_ahead as compile_ahead,
+    compiled as compiled,
+)
 from .reverse import room as room, with_steps as with_steps
 from .scan import Restarts as Restarts, stored_scan as stored_scan
 from .settings import configure as configure, need_double_precision as need_double_precision

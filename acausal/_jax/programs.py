@@ -9,8 +9,11 @@ from __future__ import annotations
 import gc
 from collections import OrderedDict
 from collections.abc import Callable, Generator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
+from dataclasses import dataclass
 from functools import wraps
+from inspect import unwrap
+from threading import Thread
 from typing import Any, ParamSpec, TypeVar
 
 import jax
@@ -24,7 +27,17 @@ MOST = 128
 
 ARRAYS = jax.Array, np.ndarray, np.generic
 
-_programs: OrderedDict[tuple[Any, ...], Callable[[list[Any]], Any]] = OrderedDict()
+
+@dataclass
+class KeptProgram:
+    """A function for arguments of some kinds, and the thread that compiles it ahead of its first call."""
+
+    jitted: Any
+    is_new: bool = True
+    compiling: Thread | None = None
+
+
+_programs: OrderedDict[tuple[Any, ...], KeptProgram] = OrderedDict()
 
 
 def compiled(function: Callable[P, Result]) -> Callable[P, Result]:
@@ -33,34 +46,58 @@ def compiled(function: Callable[P, Result]) -> Callable[P, Result]:
     Arguments:
         function: pure, of pytrees whose other leaves can be hashed; its result consists of arrays.
     """
-    untyped: Callable[..., Result] = function
 
     @wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> Result:
-        leaves, tree = jax.tree.flatten((args, kwargs))
-        kinds = tuple(map(_kind, leaves))
-        key = function, tree, kinds
-        arrays = [leaf for leaf in leaves if isinstance(leaf, ARRAYS)]
-        program = _programs.pop(key, None)
-        is_new = program is None
-        if program is None:
-            constants = [None if isinstance(leaf, ARRAYS) else leaf for leaf in leaves]
-
-            def of_arrays(arrays: list[Any]) -> Result:
-                rest = iter(arrays)
-                given = [next(rest) if leaf is None else leaf for leaf in constants]
-                positional, named = jax.tree.unflatten(tree, given)
-                return untyped(*positional, **named)
-
-            of_arrays.__name__ = function.__name__
-            program = jax.jit(of_arrays)
-        _programs[key] = program
-        while len(_programs) > MOST:
-            _programs.popitem(last=False)
-        with collection_paused() if is_new else nullcontext():
-            return program(arrays)
+        program, arrays = _program(function, args, kwargs)
+        if program.compiling is not None:
+            program.compiling.join()
+            program.compiling = None
+        with collection_paused() if program.is_new else nullcontext():
+            program.is_new = False
+            return program.jitted(arrays)
 
     return call
+
+
+def compile_ahead(function: Callable[P, Any], *args: P.args, **kwargs: P.kwargs) -> None:
+    """Begin to compile what a `compiled` function needs for such arguments, in a thread; a call waits for it.
+
+    JAX then finds the compiled program. Where another version of it should not, the call compiles once more.
+    """
+    program, arrays = _program(unwrap(function), args, kwargs)
+    if program.is_new and program.compiling is None:
+        with collection_paused():
+            lowered = program.jitted.lower(arrays)
+        program.compiling = Thread(target=_compile, args=(lowered,))
+        program.compiling.start()
+
+
+def _program(function: Callable[..., Any], args: Any, kwargs: Any) -> tuple[KeptProgram, list[Any]]:
+    """The program of a function for some arguments, and those of them that it takes."""
+    leaves, tree = jax.tree.flatten((args, kwargs))
+    key = function, tree, tuple(map(_kind, leaves))
+    program = _programs.pop(key, None)
+    if program is None:
+        constants = [None if isinstance(leaf, ARRAYS) else leaf for leaf in leaves]
+
+        def of_arrays(arrays: list[Any]) -> Any:
+            rest = iter(arrays)
+            given = [next(rest) if leaf is None else leaf for leaf in constants]
+            positional, named = jax.tree.unflatten(tree, given)
+            return function(*positional, **named)
+
+        of_arrays.__name__ = function.__name__
+        program = KeptProgram(jax.jit(of_arrays))
+    _programs[key] = program
+    while len(_programs) > MOST:
+        _programs.popitem(last=False)
+    return program, [leaf for leaf in leaves if isinstance(leaf, ARRAYS)]
+
+
+def _compile(lowered: Any) -> None:
+    with suppress(Exception):  # the call says what is wrong
+        lowered.compile()
 
 
 @contextmanager

@@ -9,7 +9,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from acausal._jax import compiled, known, without_derivatives
+from acausal._jax import compiled, known, traced, without_derivatives
 from acausal.codegen import Values
 from acausal.errors import InitializationError, listing
 from acausal.events.event_formulas import Events
@@ -49,8 +49,8 @@ def _begun(events: Events, at: Values) -> Float[Array, " n_discrete"]:
 
 
 @compiled
-def _fire_at_start(events: Events, at: Values) -> After:
-    """What happens at the first time, once initial values are found; with derivatives in both modes.
+def _fire_at_start(events: Events, at: Values, differentiable: bool) -> After:
+    """What happens at the first time, once initial values are found; on demand with derivatives in both modes.
 
     A condition whose time it is, but for rounding, has changed.
     """
@@ -62,7 +62,9 @@ def _fire_at_start(events: Events, at: Values) -> After:
         near = jnp.abs(when.t - fixed.t) <= apart
         band = jnp.where(near, 2 * apart * jnp.abs(when.rate), band)
         forced = (when.rate > 0).astype(at.x.dtype)
-    after = fire(events, fixed, band, forced=forced, keep=True)
+    after = fire(events, fixed, band, forced=forced, keep=differentiable)
+    if not differentiable:
+        return after
     assert at.d is not None
 
     def again(state: tuple[Array, Array], k: Array) -> tuple[tuple[Array, Array], None]:
@@ -123,7 +125,8 @@ def start_of(
         InitializationError: if no discrete variables agree with the initial values.
     """
     x, d = before_events(events, start, initial_state)
-    after = _fire_at_start(events, start._replace(x=x, d=d))
+    at = start._replace(x=x, d=d)
+    after = _fire_at_start(events, at, traced(at))
     if (converged := known(after.converged)) is not None and not bool(converged):
         circle = listing(map(describe, non_converged(events, start._replace(x=x, d=d))), 6)
         raise InitializationError(

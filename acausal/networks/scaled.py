@@ -12,6 +12,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
+from acausal._jax import compiled
 from acausal.networks.law_parts import WithFactor
 from acausal.networks.mlp import Scale, check_inputs, scaled
 
@@ -101,7 +102,13 @@ def law_at(
     rest: Float[Array | np.ndarray, " n"],
 ) -> Float[Array, " points"]:
     """The law of a network over its first input, the first of several; the other inputs are held at ``rest``."""
-    found = jax.vmap(lambda x: law_of(network)(x, *rest))(jnp.asarray(points))
+    return _law_over(network, points, rest)
+
+
+@compiled
+def _law_over(network: Callable[..., Array], points: ArrayLike, rest: ArrayLike) -> Array:
+    others = jnp.asarray(rest)
+    found = jax.vmap(lambda x: law_of(network)(x, *others))(jnp.asarray(points))
     return found if found.ndim == 1 else found[:, 0]
 
 

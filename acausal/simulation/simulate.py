@@ -6,6 +6,7 @@ import logging
 import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, cast
+from weakref import WeakSet
 
 import diffrax as dfx
 import numpy as np
@@ -31,7 +32,7 @@ from acausal.simulation.inputs import (
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import step_ends
-from acausal.simulation.steps import Tolerance, check_tolerances, simulate_in_steps
+from acausal.simulation.steps import InSteps, Tolerance, check_tolerances
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -46,6 +47,9 @@ FEWEST, JUMP = 10, 10.0
 
 POINTS = 500
 """Points that an adaptive simulation saves by default."""
+
+_SIMULATED: WeakSet[System] = WeakSet()
+"""Models whose first simulation has begun: the next one finds how to start it compiled already."""
 
 
 def simulate(
@@ -142,36 +146,32 @@ def simulate(
     packed = system.pack(params)
     u_start = select(evaluate_all(functions, array([start])), 0)
     steady = isinstance(x0, str) and x0 == "steady"
-    values = system.start_values(packed, None if steady else x0, u_start, start, steady=steady)
-    run = Run(system, values, functions, end)
-    run.check_start()
     steps = "adaptive steps" if ends is None else f"{len(ends) - 1} steps"
     LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
     forward = isinstance(adjoint, dfx.ForwardMode)
-    if ends is not None and system.events is None and not are_split(run, ends, adjoint):
-        scheme = solvers.solver_named("tsit5" if called == "auto" else solver, fixed=True)
-        direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
-        solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
-        _warn_of_another_solution(solution)
-        return solution
-    if saved is None:
-        saved = np.linspace(start, end, POINTS) if ends is None else ends
     chosen = None
     if called != "auto":
         with_events = system.events is not None
         chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
-    solution = simulate_in_steps(
-        run,
-        saved,
-        chosen,
-        rtol,
-        atol,
-        max_steps,
-        kind,
-        ends=ends,
-        forward=forward,
-        max_step=longest,
-    )
+    times = saved
+    if times is None:
+        times = np.linspace(start, end, POINTS) if ends is None else ends
+    in_steps = InSteps(times, chosen, rtol, atol, max_steps, kind, ends, forward, longest)
+    # with events, what finds the start takes as long to compile as a third of the steps: both at the same time
+    if system.events is not None and not traced(packed, x0, u_start) and system not in _SIMULATED:
+        _SIMULATED.add(system)
+        at = system.blank(packed, start, u_start)._replace(t=start)
+        in_steps.begin_to_compile(Run(system, at, functions, end))
+    values = system.start_values(packed, None if steady else x0, u_start, start, steady=steady)
+    run = Run(system, values, functions, end)
+    run.check_start()
+    if ends is not None and system.events is None and not are_split(run, ends, adjoint):
+        scheme = solvers.solver_named("tsit5", fixed=True) if chosen is None else chosen
+        direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
+        solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
+        _warn_of_another_solution(solution)
+        return solution
+    solution = in_steps.simulate(run)
     if saveat is None and ends is None:
         _warn_of_few_points(solution, end - start)
     _warn_of_another_solution(solution)

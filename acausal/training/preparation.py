@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -38,6 +39,7 @@ class Training:
         options: how to train.
         seeds: one for each training; ``params``: the parameters where each starts.
         automatic: what was chosen from the data, with ``strategy="auto"``.
+        seconds: what preparing took.
         arguments: those of `prepare`, by name. What follows from them is made again by a process that receives a
             training, because optimizers are closures, which cannot be pickled.
     """
@@ -50,6 +52,7 @@ class Training:
     seeds: Sequence[int]
     params: Sequence[Mapping[str, Any]]
     automatic: Automatic | None
+    seconds: float
     arguments: Mapping[str, Any]
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -84,6 +87,7 @@ def prepare(
     Raises:
         DataError, TrainingError: as `acausal.fit` does.
     """
+    began = time.perf_counter()
     by_name = [v for v in vars(options).values() if isinstance(v, Mapping)]
     need_known("A training", params, by_name, error=TrainingError)
     for given in params:
@@ -118,8 +122,9 @@ def prepare(
     held = hold_out(problem, kept, options.x0)
     planned = stages(options) if from_data is None else from_data.stages
     plan = segments(problem, planned, options)
+    seconds = time.perf_counter() - began
     return Training(
-        problem, kept.training, held, plan, options, seeds, starts, from_data, arguments
+        problem, kept.training, held, plan, options, seeds, starts, from_data, seconds, arguments
     )
 
 

@@ -59,7 +59,8 @@ class Fit(TrainedModel):
         arguments: by network, what it was called with in one simulation of every record.
         seen: by network, the statistics of these arguments.
         history: the training, update by update.
-        seconds: total time; ``compile_seconds``: the part in XLA's compiler.
+        seconds: total time; ``prepare_seconds``: the part before the training, as for starts, scales and steps that the
+            data give; ``compile_seconds``: the part in XLA's compiler after that.
         seconds_per_epoch: average time of an update.
         interrupted: whether the user ended it early.
         starts: what several starts of the parameters reached; ``None`` for one.
@@ -268,6 +269,7 @@ def _of_held_out(problem: Problem, trainable: Trainable) -> dict[str, RecordFit]
 def result(
     problem: Problem,
     trained: Trained,
+    prepare_seconds: float,
     held: Problem | None = None,
     starts: Starts | None = None,
     settings: Mapping[str, str] | None = None,
@@ -296,7 +298,8 @@ def result(
         arguments=arguments,
         seen={n: Seen(a.mean(axis=0), a.std(axis=0)) for n, a in arguments.items()},
         history=history,
-        seconds=trained.seconds,
+        seconds=prepare_seconds + trained.seconds,
+        prepare_seconds=prepare_seconds,
         compile_seconds=trained.compiling,
         seconds_per_epoch=trained.updating / max(history.epochs, 1),
         interrupted=trained.interrupted,

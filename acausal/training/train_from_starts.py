@@ -89,6 +89,7 @@ def run(
         result(
             own,
             one,
+            training.seconds,
             judged or training.held,
             spread,
             {"seed": str(seed), **described},

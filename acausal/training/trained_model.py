@@ -67,6 +67,7 @@ class TrainedModel:
     seen: dict[str, Seen]
     history: History
     seconds: float
+    prepare_seconds: float
     compile_seconds: float
     seconds_per_epoch: float
     interrupted: bool

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal._jax import compiled
+from acausal._jax import compile_ahead, compiled
+from tests.support.counted import compilations
 from tests.support.parts import Equations
 
 
@@ -34,6 +35,35 @@ def test_one_program_serves_equal_shapes_and_constants() -> None:
     assert len(traced) == 6
     grown = jax.grad(lambda x: scaled(x, {"a": 3.0}, n=2).sum())(x)
     np.testing.assert_allclose(grown, 6.0)
+
+
+def test_a_program_that_is_compiled_ahead_is_compiled_once() -> None:
+    @compiled
+    def scaled(x: Any, by: float) -> Any:
+        return x * by + x[0]
+
+    x = jnp.arange(3.0)
+    with compilations() as names:
+        compile_ahead(scaled, jnp.zeros(3), 2.0)
+        compile_ahead(scaled, x, 2.0)
+        np.testing.assert_allclose(scaled(x, 2.0), x * 2)
+        compile_ahead(scaled, x, 2.0)
+    assert names.count("jit(scaled)") == 1
+
+
+def test_the_steps_of_a_model_with_events_are_compiled_once_while_its_start_is_found() -> None:
+    class Falls(ac.Component):
+        h = ac.Variable(start=1.0, fixed=True)
+
+        def equations(self) -> Any:
+            yield ac.Eq(ac.der(self.h), -1.0)
+            yield ac.When(self.h < 0.5, ac.Reinit(self.h, 2.0))
+
+    system = ac.compile(Falls())
+    with compilations() as names:
+        sol = ac.simulate(system, (0, 1))
+    assert names.count("jit(_run)") == 1
+    np.testing.assert_allclose(sol["h"][-1], 1.5, rtol=1e-9)
 
 
 def test_models_that_are_gone_leave_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:

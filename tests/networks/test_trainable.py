@@ -12,6 +12,7 @@ from acausal.codegen import Values
 from acausal.components import neural, translational as tl
 from acausal.networks import law_at
 from acausal.networks.in_params import networks
+from tests.support.counted import compilations
 from tests.support.oscillator import learned
 
 
@@ -31,6 +32,14 @@ class Spring(eqx.Module):
 def test_the_law_of_a_module_with_a_field_of_that_name_is_the_module():
     found = law_at(Spring(2.0), np.array([1.0, 2.0]), np.zeros(0))
     np.testing.assert_array_equal(found, [2.0, 4.0])
+
+
+def test_a_law_at_some_points_is_one_program():
+    net, points = ac.MLP(key=0), np.linspace(-1.0, 1.0, 23)
+    with compilations() as names:
+        found = law_at(net, points, np.zeros(0))
+    assert [n for n in names if "law" not in n] == []
+    np.testing.assert_allclose(found[3], net(points[3]), rtol=1e-12)
 
 
 def test_the_papers_network():

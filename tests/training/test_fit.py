@@ -148,6 +148,8 @@ def test_a_hardening_spring_is_learned():
     assert fit.loss == fit.history.full_loss[:, 1].min()
     assert np.all(np.diff(fit.history.seconds) > 0)
     assert "Fit of extra.net" in repr(fit)
+    assert 0 < fit.prepare_seconds < fit.seconds - fit.compile_seconds
+    assert f"{fit.prepare_seconds:.3g} s to prepare" in repr(fit)
 
 
 def test_modifiers_find_a_mass_and_a_stiffness():

@@ -9,12 +9,12 @@ from acausal.simulation.steps.between_events import (
     DEADBAND_GROWTH as DEADBAND_GROWTH,
     NEAR as NEAR,
 )
+from acausal.simulation.steps.in_steps import (
+    InSteps as InSteps,
+    Tolerance as Tolerance,
+    check_tolerances as check_tolerances,
+)
 from acausal.simulation.steps.over_rows import (
     Adaptive as Adaptive,
     integrate_in_steps as integrate_in_steps,
-)
-from acausal.simulation.steps.simulate_in_steps import (
-    Tolerance as Tolerance,
-    check_tolerances as check_tolerances,
-    simulate_in_steps as simulate_in_steps,
 )

@@ -22,7 +22,7 @@ from acausal.simulation.solvers import Scheme, Solver
 from acausal.simulation.steps.loop import REACHED
 from acausal.simulation.steps.methods import paced
 from acausal.simulation.steps.problem import Integration, RightHandSide
-from acausal.simulation.steps.solve import solve
+from acausal.simulation.steps.solve import first_run, solve
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -195,7 +195,10 @@ def integrate_in_steps(
         events=events,
     )
     log = None if d0 is None else Log.empty(len(start.x) + len(d0), dtype, values=0)
-    found = solve(problem, method, system.state_jacobian, d=d0, log=log, forward=direct).found
+    jacobian = system.state_jacobian
+    found = solve(
+        first_run(problem, method, jacobian, d=d0, log=log, forward=direct), jacobian
+    ).found
     x, d = found.saved
     if restarts is not None:
         x = jnp.where(restarts.begins[:, None], restarts.first, x)

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import array, compiled, known, two_modes
+from acausal._jax import array, compile_ahead, compiled, known, two_modes
 from acausal.codegen import StateJacobian
 from acausal.errors import SimulationError
 from acausal.simulation.log import Log
@@ -30,7 +30,17 @@ class Solved(NamedTuple):
     stiff_from: Float[Array, ""]
 
 
-def solve(
+class FirstRun(NamedTuple):
+    """What is run first to solve a problem: the arguments of `_run`."""
+
+    method: Method | OneStep
+    problem: Integration
+    start: LoopStart
+    until_stiff: bool
+    forward: bool
+
+
+def first_run(
     problem: Integration,
     solver: Solver | OneStep | None,
     jacobian: StateJacobian,
@@ -38,8 +48,8 @@ def solve(
     d: Float[Array, " n_discrete"] | None = None,
     log: Log | None = None,
     forward: bool = False,
-) -> Solved:
-    """Solve a problem.
+) -> FirstRun:
+    """What is run first to solve a problem.
 
     Arguments:
         problem: what is integrated.
@@ -54,37 +64,46 @@ def solve(
     """
     start = LoopStart(problem.begin, problem.x, array(0, int), d, log)
     if solver is None:
-        return _automatic(problem, start, jacobian, forward)
+        return FirstRun(explicit(), problem, start, True, forward)
     method = solver if isinstance(solver, OneStep) else method_of(solver, problem, jacobian)
     if problem.events is not None and not isinstance(method, OneStep):
         raise SimulationError(
             f"solver {method.name} goes on from steps before an event, which ends them all; choose 'auto', or "
             "'kvaerno5' for stiff models with events"
         )
-    found = _run(method, problem, start, False, forward)
-    return Solved(found, method.name, array(np.nan))
+    return FirstRun(method, problem, start, False, forward)
 
 
-def _automatic(
-    problem: Integration, start: LoopStart, jacobian: StateJacobian, forward: bool
-) -> Solved:
-    """Explicit steps, and implicit ones from where the model turns out to be stiff."""
-    method, second = explicit(), stiff(problem, jacobian)
-    first = _run(method, problem, start, True, forward)
-    why = known(first.why)
+def begin_to_compile(first: FirstRun) -> None:
+    """Begin to compile a run, whatever the values of its arrays."""
+    compile_ahead(_run, *first)
+
+
+def solve(first: FirstRun, jacobian: StateJacobian) -> Solved:
+    """Solve a problem, with the first run posed and the model's Jacobian for implicit steps."""
+    found, name = _run(*first), first.method.name
+    if not first.until_stiff:
+        return Solved(found, name, array(np.nan))
+    why = known(found.why)
     if why is not None and int(why) not in (STIFF, EXHAUSTED):
-        return Solved(first, method.name, array(np.inf, first.t.dtype))
+        return Solved(found, name, array(np.inf, found.t.dtype))
+    return _goes_on(first, found, stiff(first.problem, jacobian))
+
+
+def _goes_on(run: FirstRun, first: LoopResult, second: Method) -> Solved:
+    """Implicit steps from where the model has turned out to be stiff."""
+    problem = run.problem
     goes_on = (first.why == STIFF) | (first.why == EXHAUSTED)
     begin = jnp.where(goes_on, first.t, problem.end)  # nothing is left to do where it is not stiff
     again = LoopStart(begin, first.x, first.next, first.d, first.log)
-    rest = _run(second, problem, again, False, forward)
+    rest = _run(second, problem, again, False, run.forward)
     earlier = (jnp.arange(len(problem.ts)) < first.next)[:, None]
     joined = rest._replace(
         saved=jax.tree.map(lambda a, b: jnp.where(earlier, a, b), first.saved, rest.saved),
         why=jnp.where(goes_on, rest.why, first.why),
         counts=first.counts.plus(rest.counts),
     )
-    name = f"{method.name}, then {second.name}"
+    name = f"{run.method.name}, then {second.name}"
     return Solved(joined, name, jnp.where(goes_on, first.t, jnp.inf))
 
 

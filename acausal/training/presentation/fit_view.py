@@ -66,10 +66,11 @@ def fit_view(fit: TrainedModel) -> str:
 def fit_text(fit: TrainedModel, stages: str, verdict: Verdict | None) -> str:
     """A training in lines of text; ``stages`` is what they reached, in one."""
     each, epochs = fit.seconds_per_epoch, fit.history.epochs
-    rest = max(fit.seconds - fit.compile_seconds - each * epochs, 0.0)
+    parts = fit.prepare_seconds, fit.compile_seconds, each * epochs
+    rest = max(fit.seconds - sum(parts), 0.0)
     times = (
-        f"{fit.compile_seconds:.3g} s to compile, {each * epochs:.3g} s for {epochs} epochs of "
-        f"{each * 1e3:.3g} ms, {rest:.3g} s for the rest"
+        f"{fit.prepare_seconds:.3g} s to prepare, {fit.compile_seconds:.3g} s to compile, "
+        f"{each * epochs:.3g} s for {epochs} epochs of {each * 1e3:.3g} ms, {rest:.3g} s for the rest"
     )
     lines = [
         f"Fit of {', '.join((*fit.seen, *fit.modifiers))}{' (interrupted)' * fit.interrupted}",

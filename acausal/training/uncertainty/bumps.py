@@ -7,12 +7,14 @@ from dataclasses import replace
 from typing import Any
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.scipy.special import erf
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
+from acausal._jax import compiled
 from acausal.networks import EnergyLaw, WithLaw, kept_promises, law_of, rise_of
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Network
@@ -97,6 +99,12 @@ def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"])
     mirrored = -1 if "odd" in kept else 1 if "even" in kept else 0
     hole = jnp.minimum(width, rise_of(network)) if "zero" in kept and mirrored >= 0 else None
     return Bumped(network, jnp.zeros(BUMPS), jnp.asarray(centres), width, hole, mirrored)
+
+
+@compiled
+def bumps_at(law: Bumped, points: Float[ArrayLike, " points"]) -> Float[Array, "points n_bumps"]:
+    """The bumps of a law at some points."""
+    return jax.vmap(law.bumps)(jnp.asarray(points))
 
 
 def with_changes(

@@ -29,7 +29,14 @@ from acausal.training.objective.prior import LawPrior, Prior
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
-from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law, with_changes
+from acausal.training.uncertainty.bumps import (
+    BUMPS,
+    Bumped,
+    Network,
+    bumped_law,
+    bumps_at,
+    with_changes,
+)
 from acausal.training.uncertainty.confidence_view import confidence_view
 from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
 from acausal.training.uncertainty.residuals import correlation_time, unexplained
@@ -337,7 +344,7 @@ def _as_prior(
         centres = bumped[name].centres
         points = jnp.linspace(centres[0], centres[-1], POINTS_EACH * BUMPS)
         rest = jnp.asarray(seen[name][:, 1:].mean(axis=0))
-        heights = np.linalg.pinv(np.asarray(jax.vmap(bumped[name].bumps)(points)))
+        heights = np.linalg.pinv(np.asarray(bumps_at(bumped[name], points)))
         return LawPrior(points, rest, law_at(params[name], points, rest), jnp.asarray(heights))
 
     moved = problem.modifiers
@@ -470,7 +477,7 @@ def _band(
 ) -> Band:
     x = np.linspace(float(bumped.centres[0]), float(bumped.centres[-1]), BAND_POINTS)
     rest = seen[:, 1:].mean(axis=0)
-    shapes = np.asarray(jax.vmap(bumped.bumps)(jnp.asarray(x)))
+    shapes = np.asarray(bumps_at(bumped, x))
     variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
     kept = kept_promises(network)
     sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0

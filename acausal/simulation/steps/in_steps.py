@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import diffrax as dfx
@@ -21,7 +22,9 @@ from acausal.simulation.statistics import Statistics
 from acausal.simulation.steps.loop import CHATTERS, EXHAUSTED, NOT_CONVERGED, REACHED, LoopResult
 from acausal.simulation.steps.methods import paced
 from acausal.simulation.steps.problem import Integration, RightHandSide
-from acausal.simulation.steps.solve import Solved, solve
+from acausal.simulation.steps.solve import FirstRun, Solved, begin_to_compile, first_run, solve
+
+Tolerance = float | Array
 
 
 class ModelField(RightHandSide):
@@ -45,23 +48,11 @@ class ModelField(RightHandSide):
         return self.system.field(t, evaluate(self.inputs, t, self.until), self.packed, self.d)
 
 
-def simulate_in_steps(
-    run: Run,
-    saved: Float[np.ndarray, " n"],
-    solver: solvers.Solver | None,
-    rtol: Tolerance,
-    atol: Tolerance,
-    max_steps: int,
-    dtype: np.dtype[Any],
-    *,
-    ends: Float[np.ndarray, " n_ends"] | None = None,
-    forward: bool = False,
-    max_step: float | None = None,
-) -> Solution:
-    """Simulate in steps that end where an input is known to jump, and at events.
+@dataclass(frozen=True)
+class InSteps:
+    """Simulation in steps that end where an input is known to jump, and at events.
 
-    Arguments:
-        run: what to simulate.
+    Attributes:
         saved: times to save.
         solver: a solver with an error estimate, or of fixed steps; ``None``: Tsit5, and a stiff method from where the
             model is stiff.
@@ -69,55 +60,81 @@ def simulate_in_steps(
         atol: absolute tolerance, in the states' units.
         max_steps: limit of steps.
         dtype: precision of time and states.
-        max_step: the longest step in seconds; None: as their errors allow.
         ends: of fixed steps of a model with events; by default, steps follow their errors.
         forward: allow derivatives in forward mode only, of any order.
-
-    Raises:
-        SimulationError: if the end is not reached.
+        max_step: the longest step in seconds; None: as their errors allow.
     """
-    ts, jumps = breaks(run.inputs, run.begin, run.end)
-    method: Any = solver
-    if ends is not None:
-        inner = np.union1d(ts, ends[1:-1])
-        ts, jumps = inner, np.isin(inner, ts[jumps])
-        max_steps = max(max_steps, 20 * len(ends))
-        chosen = dfx.Tsit5() if solver is None else solver
-        scheme = solvers.for_fixed_steps(chosen)
-        method = paced(scheme, run.system.state_jacobian, dtype)
-    problem = Integration(
-        ModelField(run.start.packed, run.inputs, system=run.system, d=run.start.d),
-        run.start.x,
-        array(run.begin),
-        array(run.end),
-        array(saved),
-        array(ts),
-        array(jumps, bool),
-        array(rtol),
-        array(atol),
-        max_steps,
-        events=run.system.events,
-        max_step=None if max_step is None or ends is not None else array(max_step),
-    )
-    problem, d = cast((problem, run.start.d), dtype)
-    log = None
-    if d is not None:
-        room = FEW_VALUES if traced(problem, d) else VALUES
-        log = Log.empty(len(problem.x) + len(d), dtype, values=room)
-    solved = solve(problem, method, run.system.state_jacobian, d=d, log=log, forward=forward)
-    found, c = solved.found, solved.found.counts
-    x, saved_d = found.saved
-    if (why := known(found.why)) is not None and not traced(x):
-        if int(why) == REACHED:
-            run.refuse_broken(x, saved, solved.method)
-        else:
-            raise _stopped(run, solved, int(why), max_steps, ends is not None, solver is None)
-    own = c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
-    statistics = Statistics(solved.method, *own, c.edges, c.by_wave, c.by_span, c.looks)
-    u = evaluate_all(run.inputs, problem.ts)
-    values = cast(run.start, dtype)._replace(t=problem.ts, x=x, u=u, d=saved_d)
-    inputs = None if found.log is None else run.inputs
-    return Solution(values, run.system, statistics, found.log, inputs)
+
+    saved: Float[np.ndarray, " n"]
+    solver: solvers.Solver | None
+    rtol: Tolerance
+    atol: Tolerance
+    max_steps: int
+    dtype: np.dtype[Any]
+    ends: Float[np.ndarray, " n_ends"] | None = None
+    forward: bool = False
+    max_step: float | None = None
+
+    def begin_to_compile(self, run: Run) -> None:
+        """Begin to compile what `simulate` will run, whatever the values at the start are."""
+        begin_to_compile(self._posed(run))
+
+    def simulate(self, run: Run) -> Solution:
+        """Simulate.
+
+        Raises:
+            SimulationError: if the end is not reached.
+        """
+        posed = self._posed(run)
+        solved = solve(posed, run.system.state_jacobian)
+        found, c = solved.found, solved.found.counts
+        x, saved_d = found.saved
+        if (why := known(found.why)) is not None and not traced(x):
+            if int(why) == REACHED:
+                run.refuse_broken(x, self.saved, solved.method)
+            else:
+                has_dt, automatic = self.ends is not None, self.solver is None
+                raise _stopped(run, solved, int(why), posed.problem.max_steps, has_dt, automatic)
+        own = c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
+        statistics = Statistics(solved.method, *own, c.edges, c.by_wave, c.by_span, c.looks)
+        ts = posed.problem.ts
+        values = cast(run.start, self.dtype)._replace(t=ts, x=x, d=saved_d)
+        values = values._replace(u=evaluate_all(run.inputs, ts))
+        inputs = None if found.log is None else run.inputs
+        return Solution(values, run.system, statistics, found.log, inputs)
+
+    def _posed(self, run: Run) -> FirstRun:
+        ts, jumps = breaks(run.inputs, run.begin, run.end)
+        method: Any = self.solver
+        max_steps, max_step = self.max_steps, self.max_step
+        if self.ends is not None:
+            inner = np.union1d(ts, self.ends[1:-1])
+            ts, jumps = inner, np.isin(inner, ts[jumps])
+            max_steps, max_step = max(max_steps, 20 * len(self.ends)), None
+            chosen = dfx.Tsit5() if self.solver is None else self.solver
+            scheme = solvers.for_fixed_steps(chosen)
+            method = paced(scheme, run.system.state_jacobian, self.dtype)
+        problem = Integration(
+            ModelField(run.start.packed, run.inputs, system=run.system, d=run.start.d),
+            run.start.x,
+            array(run.begin),
+            array(run.end),
+            array(self.saved),
+            array(ts),
+            array(jumps, bool),
+            array(self.rtol),
+            array(self.atol),
+            max_steps,
+            events=run.system.events,
+            max_step=None if max_step is None else array(max_step),
+        )
+        problem, d = cast((problem, run.start.d), self.dtype)
+        log = None
+        if d is not None:
+            room = FEW_VALUES if traced(problem, d) else VALUES
+            log = Log.empty(len(problem.x) + len(d), self.dtype, values=room)
+        jacobian = run.system.state_jacobian
+        return first_run(problem, method, jacobian, d=d, log=log, forward=self.forward)
 
 
 def _stopped(
@@ -170,9 +187,6 @@ def _last(run: Run, found: LoopResult) -> str:
         return ""
     words = list(dict.fromkeys(words for _, words in found.log.conditions(run.system)[-6:]))
     return f" ({'; '.join(words)})" if words else ""
-
-
-Tolerance = float | Array
 
 
 def check_tolerances(rtol: Tolerance, atol: Tolerance, n_states: int) -> None:
