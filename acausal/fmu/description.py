@@ -1,4 +1,4 @@
-"""What an FMU says of itself: its variables, its structure, and what it can do."""
+"""What an FMU says of itself: its variables and their units, its structure, and what it can do."""
 
 from __future__ import annotations
 

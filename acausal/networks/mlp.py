@@ -1,4 +1,4 @@
-"""The plain network: a multilayer perceptron from scalars to a scalar."""
+"""The plain network: a multilayer perceptron from scalars to a scalar; activations, and checks of inputs and sizes."""
 
 from __future__ import annotations
 
