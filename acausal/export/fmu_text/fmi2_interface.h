@@ -37,9 +37,20 @@ typedef struct {
 } fmi2EventInfo;
 
 /* Where an importer links several FMUs statically, FMI2_FUNCTION_PREFIX comes before each name. */
-#define FMI_WORD(name) fmi2##name
+#define FMI2_GLUED(prefix, name) prefix##name
+#define FMI2_GLUE(prefix, name) FMI2_GLUED(prefix, name)
 #ifdef FMI2_FUNCTION_PREFIX
-#define FMI_PREFIX FMI2_FUNCTION_PREFIX
+#define FMI(name) FMI2_GLUE(FMI2_FUNCTION_PREFIX, fmi2##name)
+#else
+#define FMI(name) fmi2##name
+#endif
+
+#if defined _WIN32 && !defined FMI2_FUNCTION_PREFIX
+#define FMI_EXPORT __declspec(dllexport)
+#elif defined __GNUC__
+#define FMI_EXPORT __attribute__((visibility("default")))
+#else
+#define FMI_EXPORT
 #endif
 
 #endif

@@ -40,9 +40,20 @@ typedef void (*fmi3LockPreemptionCallback)(void);
 typedef void (*fmi3UnlockPreemptionCallback)(void);
 
 /* Where an importer links several FMUs statically, FMI3_FUNCTION_PREFIX comes before each name. */
-#define FMI_WORD(name) fmi3##name
+#define FMI3_GLUED(prefix, name) prefix##name
+#define FMI3_GLUE(prefix, name) FMI3_GLUED(prefix, name)
 #ifdef FMI3_FUNCTION_PREFIX
-#define FMI_PREFIX FMI3_FUNCTION_PREFIX
+#define FMI(name) FMI3_GLUE(FMI3_FUNCTION_PREFIX, fmi3##name)
+#else
+#define FMI(name) fmi3##name
+#endif
+
+#if defined _WIN32 && !defined FMI3_FUNCTION_PREFIX
+#define FMI_EXPORT __declspec(dllexport)
+#elif defined __GNUC__
+#define FMI_EXPORT __attribute__((visibility("default")))
+#else
+#define FMI_EXPORT
 #endif
 
 #endif

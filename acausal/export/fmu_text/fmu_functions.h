@@ -1,22 +1,7 @@
 /* The functions that FMI 2.0 and 3.0 have alike.
 
-   The file that includes this one defines FMI_WORD and perhaps FMI_PREFIX, the types Status, Truth and Byte, and how those
-   functions are called of which the two have other names: OF_STATE(verb, rest), DESERIALIZE and GET_RATES. */
-#define GLUED(prefix, name) prefix##name
-#define GLUE(prefix, name) GLUED(prefix, name)
-#ifdef FMI_PREFIX
-#define FMI(name) GLUE(FMI_PREFIX, FMI_WORD(name))
-#else
-#define FMI(name) FMI_WORD(name)
-#endif
-
-#if defined _WIN32 && !defined FMI_PREFIX
-#define FMI_EXPORT __declspec(dllexport)
-#elif defined __GNUC__
-#define FMI_EXPORT __attribute__((visibility("default")))
-#else
-#define FMI_EXPORT
-#endif
+   The file that includes this one defines the types Status, Truth and Byte, and how the functions are called of which the
+   two have other names: OF_STATE(verb, rest), DESERIALIZE and GET_RATES. */
 #define STATUS FMI_EXPORT Status
 
 /* -- common --------------------------------------------------------------------------------------- */
