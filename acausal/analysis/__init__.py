@@ -4,10 +4,13 @@ In: a `System`, a network or a record. Out: a linearization, a formula, estimate
 It calls simulation for steps; it knows nothing of training.
 """
 
-from acausal.analysis.distillation import Distilled as Distilled, distill as distill
+from acausal.analysis.distillation import (
+    Distilled as Distilled,
+    Formula as Formula,
+    distill as distill,
+)
 from acausal.analysis.estimate import estimate as estimate
 from acausal.analysis.estimation import Estimation as Estimation
-from acausal.analysis.formula import Formula as Formula
 from acausal.analysis.linearization import Linearization as Linearization, linearize as linearize
 from acausal.analysis.module_calls import (
     Calls as Calls,

@@ -13,6 +13,7 @@ from acausal.data.formats import (
     CsvOptions as CsvOptions,
     Formats as Formats,
     ReadOptions as ReadOptions,
+    Stream as Stream,
 )
 from acausal.data.noise import noise_level as noise_level
 from acausal.data.params_file import (
@@ -33,7 +34,6 @@ from acausal.data.signal import (
     Signal as Signal,
     differentiate as differentiate,
 )
-from acausal.data.stream import Stream as Stream
 from acausal.data.tensors import (
     filled_like as filled_like,
     named_arrays as named_arrays,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypedDict, Unpack
@@ -12,7 +13,6 @@ from acausal.data import readers
 from acausal.data.by_signal import Choices
 from acausal.data.given_columns import Missing
 from acausal.data.readers import Selection, SignalTable
-from acausal.data.stream import Stream
 from acausal.errors import DataError, nearest, shown
 
 if TYPE_CHECKING:
@@ -345,3 +345,40 @@ def _split(
     of_selection = {n: options[n] for n in ("columns", "rename", "units") if n in options}
     others = {n: option for n, option in options.items() if n not in of_selection}
     return Selection(time, group=group, **of_selection), others
+
+
+@dataclass(frozen=True, eq=False)
+class Stream:
+    """Records by name that stay in their files: ``stream["run 7"]`` reads one, ``dict(stream)`` reads all.
+
+    `Data.stream` makes it; `acausal.fit` trains on it with ``strategy="sequences"``.
+
+    Attributes:
+        sources: by name, the function that reads the record.
+    """
+
+    sources: Mapping[str, Callable[[], Any]]
+
+    def keys(self) -> Iterator[str]:
+        """Names of the records."""
+        return iter(self.sources)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.sources)
+
+    def __len__(self) -> int:
+        return len(self.sources)
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self.sources:
+            raise DataError(f"There is no record '{name}': {nearest(name, self.sources)}")
+        return self.sources[name]()
+
+    def without(self, names: tuple[str, ...]) -> Stream:
+        """The other records."""
+        return Stream({n: read for n, read in self.sources.items() if n not in names})
+
+    def __repr__(self) -> str:
+        first = ", ".join(f"'{name}'" for name in list(self.sources)[:3])
+        count = len(self)
+        return f"Stream({count} record{'s' * (count > 1)}, read when needed: {first}{', ...' * (count > 3)})"

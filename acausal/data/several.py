@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
+from acausal.data.formats import Stream
 from acausal.data.readers import is_data_frame
 from acausal.data.record import Data
-from acausal.data.stream import Stream
 from acausal.errors import DataError, shown
 
 if TYPE_CHECKING:

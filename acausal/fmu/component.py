@@ -10,8 +10,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError, nearest
 from acausal.fmu.archive import read
-from acausal.fmu.conversion import Conversion
-from acausal.fmu.description import REAL, Description, FMUVariable, read_description
+from acausal.fmu.description import REAL, Conversion, Description, FMUVariable, read_description
 from acausal.fmu.fmu_view import as_html, as_text
 from acausal.fmu.function import FMUFunction, evaluated, has_events
 from acausal.fmu.model_exchange import NEVER

@@ -94,8 +94,7 @@ class Name(str):
     def __dir__(self) -> list[str]:
         return words_below(self, self._known)
 
-    def _ipython_key_completions_(self) -> list[str]:
-        return words_below(self, self._known)
+    _ipython_key_completions_ = __dir__
 
 
 def names_matching(given: Any, known: Sequence[str]) -> tuple[str, ...]:

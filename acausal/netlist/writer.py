@@ -376,7 +376,9 @@ def _path(model: Component, end: Any, where: str) -> str:
 
 def lies_within(model: Component, value: Any) -> bool:
     """Whether all references of a value lie within a model."""
-    if isinstance(value, list | tuple | np.ndarray):
+    if isinstance(value, np.ndarray):
+        return all(lies_within(model, v) for v in value.flat)
+    if isinstance(value, list | tuple):
         return all(lies_within(model, v) for v in cast(Sequence[Any], value))
     if not isinstance(value, sp.Expr):
         return True

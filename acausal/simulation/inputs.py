@@ -334,10 +334,6 @@ def breaks(
     return ts, np.isin(ts, jumping)
 
 
-def _all_samples(signal: Signal) -> Float[np.ndarray, " n"]:
-    return np.asarray(signal.ts)
-
-
 def _corners(signal: Signal) -> Float[np.ndarray, " n"]:
     """The times at which the slope changes; all samples where JAX traces their values."""
     ts = np.asarray(signal.ts)
@@ -353,7 +349,7 @@ def _times(
     signals: list[Signal],
     start: float,
     end: float,
-    of: Callable[[Signal], Float[np.ndarray, " n"]] = _all_samples,
+    of: Callable[[Signal], Float[np.ndarray, " n"]] = lambda signal: np.asarray(signal.ts),
 ) -> Float[np.ndarray, " n"]:
     """Times of some signals within a span."""
     known = [of(f) for f in signals]

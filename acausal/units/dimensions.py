@@ -11,11 +11,13 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from acausal.errors import UnitError, nearest, shortened, shown
-from acausal.units.pint_units import pint_unit
 from acausal.units.spelling import SpellingError, factors_of
+
+if TYPE_CHECKING:
+    import pint
 
 BASE = {"kg": "[mass]", "m": "[length]", "s": "[time]", "A": "[current]",
         "K": "[temperature]", "mol": "[substance]", "cd": "[luminosity]"}  # fmt: skip
@@ -199,3 +201,36 @@ def _power(unit: str, exponent: Exponent) -> str:
     if exponent == 1:
         return unit
     return f"{unit}{exponent}" if exponent.denominator == 1 else f"{unit}^{float(exponent):g}"
+
+
+@cache
+def registry() -> pint.UnitRegistry[Any]:
+    """The unit registry. Pint is imported and the registry made on first use, as this takes half a second."""
+    import pint
+
+    known = pint.UnitRegistry(cache_folder=None)
+    known.define("@alias turn = rev")
+    known.define("@alias ohm = Ohm")
+    known.define("var = watt")  # of reactive power
+    return known
+
+
+@cache
+def pint_unit(text: str) -> pint.Unit:
+    """A pint unit from Modelica's spelling: ``"N.m/rad"``, ``"kg/m3"``, ``"m/s2"``, ``"1"``.
+
+    Raises:
+        SpellingError: for text that is not a unit, or a symbol that pint does not know.
+    """
+    import pint
+
+    factors = factors_of(text)
+    product = "*".join(s if power == 1 else f"{s}**{_number(power)}" for s, power in factors)
+    try:
+        return registry().parse_units(product or "dimensionless")
+    except (pint.PintError, ValueError, TypeError, AttributeError, SyntaxError):
+        raise SpellingError(text) from None
+
+
+def _number(power: Fraction) -> int | float:
+    return power.numerator if power.denominator == 1 else float(power)

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DataError, UnitError
-from acausal.units.dimensions import BASE, dimension
-from acausal.units.pint_units import pint_unit, registry
+from acausal.units.dimensions import BASE, dimension, pint_unit, registry
 from acausal.units.spelling import SpellingError, factors_of
 
 Numbers = np.ndarray[Any, np.dtype[np.float64]]

@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 
 import acausal as ac
-from acausal.analysis.formula import TERMS
+from acausal.analysis.distillation import TERMS
 from acausal.components import neural, translational as tl
 
 X = sp.Symbol("x", real=True)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import scipy.sparse.linalg
 
-from acausal.codegen import factorizations
+from acausal.codegen import sparse
 from acausal.codegen.sparse import SparseMatrix
 from acausal.structure.elimination_order import analyse
 
@@ -109,7 +109,7 @@ def count_factorizations(monkeypatch):
         calls.append(args)
         return plain(*args, **kwargs)
 
-    monkeypatch.setattr(factorizations, "splu", counted)
+    monkeypatch.setattr(sparse, "splu", counted)
     return calls
 
 
@@ -128,8 +128,8 @@ def test_matrices_that_alternate_are_factorized_once_each(system, monkeypatch):
 def test_the_oldest_factorizations_are_dropped(system, monkeypatch, most, budget):
     matrix, entries, b, dense = system
     matrix = SparseMatrix(matrix.pattern)
-    monkeypatch.setattr(factorizations, "MOST", most)
-    monkeypatch.setattr(factorizations, "BUDGET", budget)
+    monkeypatch.setattr(sparse, "MOST", most)
+    monkeypatch.setattr(sparse, "BUDGET", budget)
     calls = count_factorizations(monkeypatch)
     for scale in (1.0, 2.0, 3.0, 3.0, 1.0):
         close(matrix.solve(scale * entries, b), dense(scale * entries, b))
@@ -178,8 +178,8 @@ def test_one_thread_makes_and_drops_all_factorizations(system, monkeypatch):
             self.nnz = scipy.sparse.linalg.splu(*args, **options).nnz
             weakref.finalize(self, lambda: dropped.append(threading.get_ident()))
 
-    monkeypatch.setattr(factorizations, "splu", Noted)
-    monkeypatch.setattr(factorizations, "MOST", 1)
+    monkeypatch.setattr(sparse, "splu", Noted)
+    monkeypatch.setattr(sparse, "MOST", 1)
     entries = np.asarray(system[1])
     kept = SparseMatrix(system[0].pattern)._factorizations
     for scale in (1.0, 2.0, 3.0):

@@ -18,8 +18,8 @@ from acausal.components import (
     rotational as rot,
     translational as tl,
 )
-from acausal.drawing.pictures import contact, to_pin
 from acausal.drawing.ports import BOOLEAN, INTEGER, color_of
+from acausal.drawing.svg import contact, to_pin
 from tests.support.clear_drawings import covered
 from tests.support.scripts import script
 from tests.support.surrounded import surrounded

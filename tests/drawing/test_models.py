@@ -12,7 +12,7 @@ import pytest
 
 import acausal as ac
 from acausal.drawing.layout import WIDE
-from acausal.drawing.pictures import contact, to_pin
+from acausal.drawing.svg import contact, to_pin
 from examples.battery_cell.model import Cell
 from examples.battery_pack.model import Pack
 from examples.campaign.model import unknown

@@ -4,8 +4,8 @@ import pytest
 
 import acausal as ac
 from acausal.components import electrical as el, icons, rotational as rot, thermal as th
-from acausal.drawing.pictures import _turn, to_pin
 from acausal.drawing.reach import reach
+from acausal.drawing.svg import _turn, to_pin
 
 
 @pytest.mark.parametrize(

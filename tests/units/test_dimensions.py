@@ -27,9 +27,9 @@ from acausal.units.dimensions import (
     QUANTITIES,
     Dimension,
     dimension as read,
+    pint_unit,
 )
 from acausal.units.infer import RULES, examine
-from acausal.units.pint_units import pint_unit
 from tests.support.counted import calls_below
 from tests.support.parts import model
 

@@ -169,16 +169,14 @@ class Printer(StrPrinter):
         return self.literally(f"mod({first}, {second})")
 
     def _print_Max(self, expr: Any) -> str:
-        return self._nested("max", expr.args)
-
-    def _print_Min(self, expr: Any) -> str:
-        return self._nested("min", expr.args)
-
-    def _nested(self, function: str, arguments: Any) -> str:
-        *others, found = sorted(map(self.print, arguments))
+        """One within the other: Modelica's functions take two arguments."""
+        function = "max" if isinstance(expr, sp.Max) else "min"
+        *others, found = sorted(map(self.print, expr.args))
         for text in reversed(others):
             found = f"{function}({text}, {found})"
         return found
+
+    _print_Min = _print_Max
 
     def _print_Heaviside(self, expr: Any) -> str:
         return self.literally(f"if {self.print(expr.args[0])} > 0 then 1 else 0")

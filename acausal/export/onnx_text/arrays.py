@@ -35,12 +35,11 @@ def _reshape(site: Site) -> list[str]:
     return [site.graph.add("Reshape", site.names[0], site.graph.sizes(site.params["new_sizes"]))]
 
 
-def _squeeze(site: Site) -> list[str]:
-    return [site.graph.add("Squeeze", site.names[0], _axes(site, *site.params["dimensions"]))]
-
-
-def _unsqueeze(site: Site) -> list[str]:
-    return [site.graph.add("Unsqueeze", site.names[0], _axes(site, *site.params["dimensions"]))]
+def _on_axes(operation: str) -> Rule:
+    """Axes of size one come or go."""
+    return lambda site: [
+        site.graph.add(operation, site.names[0], _axes(site, *site.params["dimensions"]))
+    ]
 
 
 def _transpose(site: Site) -> list[str]:
@@ -285,7 +284,7 @@ RULES: dict[str, Rule] = {
     "dot_general": _dot,
     "dynamic_slice": _dynamic_slice,
     "dynamic_update_slice": _dynamic_update,
-    "expand_dims": _unsqueeze,
+    "expand_dims": _on_axes("Unsqueeze"),
     "gather": _gather,
     "iota": _iota,
     "pad": _pad,
@@ -300,7 +299,7 @@ RULES: dict[str, Rule] = {
     "scatter": _scatter,
     "slice": _slice,
     "split": _split,
-    "squeeze": _squeeze,
+    "squeeze": _on_axes("Squeeze"),
     "stack": _stack,
     "transpose": _transpose,
     "unstack": _unstack,

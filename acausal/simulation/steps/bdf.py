@@ -166,7 +166,7 @@ class Multistep(eqx.Module):
             equation, self.jacobian, matrix, predicted, tolerances, LEFT / constant, PATIENCE, scale
         )
         x, exact = lax.stop_gradient(newton.x), newton.x
-        error = constant * problem.size(x - predicted, x_before, x)
+        error = constant * problem.tolerances.size(x - predicted, x_before, x)
         error = jnp.where(newton.done, error, jnp.inf)
         inside = without_derivatives(
             StepPolynomial(jnp.concatenate([x[None], m.states]), _with_end(s), q)
@@ -176,7 +176,9 @@ class Multistep(eqx.Module):
 
         def size(share: Any) -> Array:  # solved with the matrix, as fast modes would count else
             _, r = defect(self, problem, inside, begin, length, share)
-            return problem.size(self.jacobian.iteration_matrix.solve(fixed, r), x_before, found)
+            return problem.tolerances.size(
+                self.jacobian.iteration_matrix.solve(fixed, r), x_before, found
+            )
 
         look = look_inside(problem, error, INSIDE, size, OF_DEFECT)
         looked = (error < 1) & (look.error >= 1)
@@ -217,7 +219,9 @@ class Multistep(eqx.Module):
 
         def size(derivative: Array) -> Array:
             """How large, over the tolerance, the derivative of an order is, times the step to the same power."""
-            return problem.size(differences(s, derivative) @ states, states[1], states[0])
+            return problem.tolerances.size(
+                differences(s, derivative) @ states, states[1], states[0]
+            )
 
         def longer(error: Array, order: Array, safety: float) -> Array:
             return 1 / ((safety * error) ** (1 / (order + 1)) + 1e-6)

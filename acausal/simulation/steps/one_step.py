@@ -164,7 +164,7 @@ class OneStep(eqx.Module):
         """Try a step of length h from t."""
         x = memory.x
         made = self.make(problem.field, t, h, x, memory.first)
-        error = lax.stop_gradient(problem.size(made.error, x, made.x))
+        error = lax.stop_gradient(problem.tolerances.size(made.error, x, made.x))
         error = jnp.where(made.done & jnp.isfinite(error), error, jnp.inf)
         look = self._look(problem, made, t, h, x, error)
         looked = (error < 1) & (look.error >= 1)
@@ -197,7 +197,7 @@ class OneStep(eqx.Module):
         fixed, dense, t, h, x, end = without_derivatives((problem, made.dense, t, h, x, made.x))
 
         def size(share: Any) -> Array:
-            return fixed.size(defect(self, fixed, dense, t, h, share)[1], x, end)
+            return fixed.tolerances.size(defect(self, fixed, dense, t, h, share)[1], x, end)
 
         return look_inside(problem, error, INSIDE, size, OF_DEFECT)
 
@@ -296,11 +296,11 @@ def first_step(
 ) -> tuple[State, Float[Array, ""]]:
     """The derivative, and a length for the first step (Hairer, Nørsett & Wanner 1993, II.4)."""
     fixed = lax.stop_gradient(x)
-    d0 = problem.size(fixed, fixed)
+    d0 = problem.tolerances.size(fixed, fixed)
 
     def a_little(f: State) -> tuple[Array, Array]:
         """How fast the state moves, and a length after which the right-hand side is looked at once more."""
-        d1 = problem.size(f, fixed)
+        d1 = problem.tolerances.size(f, fixed)
         small = (d0 < 1e-5) | (d1 < 1e-5)
         h0 = jnp.where(small, 1e-6, 0.01 * d0 / jnp.where(small, 1.0, d1))
         return d1, jnp.minimum(h0, problem.end - t)
@@ -317,7 +317,7 @@ def first_step(
         there, f = go_on((t, x), None)
         other = problem.field(*there)
     d1, h0 = a_little(lax.stop_gradient(f))
-    d2 = problem.size(lax.stop_gradient(other - f), fixed) / h0
+    d2 = problem.tolerances.size(lax.stop_gradient(other - f), fixed) / h0
     largest = jnp.maximum(d1, d2)
     flat = largest <= 1e-15
     h1 = (0.01 / jnp.where(flat, 1.0, largest)) ** (1 / (order + 1))

@@ -165,12 +165,6 @@ class Integration(eqx.Module):
         """Of a step."""
         return Tolerances(self.rtol, self.atol)
 
-    def size(
-        self, change: Float[Array, " n_states"], *states: Float[Array, " n_states"]
-    ) -> Float[Array, ""]:
-        """See `Tolerances.size`."""
-        return self.tolerances.size(change, *states)
-
 
 class Counts(NamedTuple):
     """What a run has cost.

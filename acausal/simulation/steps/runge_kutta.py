@@ -1,4 +1,4 @@
-"""Explicit Runge–Kutta schemes: their steps from the tableau, and in reverse."""
+"""Runge–Kutta schemes: explicit ones, their steps from the tableau and in reverse, and diagonally implicit ones."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+import diffrax as dfx
 import jax
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
+from acausal.simulation.newton import Fields, Rates
+from acausal.simulation.stages import ImplicitScheme, stages
 from acausal.simulation.steps.one_step import Made, OneStep, State
 from acausal.simulation.steps.problem import Counts, RightHandSide
 from acausal.simulation.tableau import Tableau, moved, tableau_of
@@ -131,3 +134,35 @@ def _fastest(tableau: Tableau, x: State, h: Array, stages: list[State], end: Sta
     change, apart = stages[-1] - stages[-2], end - other
     size = jnp.sqrt(jnp.sum(apart**2))
     return lax.stop_gradient(jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf))
+
+
+class Diagonal(OneStep):
+    """A diagonally implicit Runge–Kutta scheme, each stage of which is solved by itself.
+
+    Attributes:
+        scheme: how stages are found.
+    """
+
+    scheme: ImplicitScheme
+
+    def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: State) -> Made:
+        """One step."""
+        tableau = self.scheme.tableau
+        found = stages(self.scheme, Fields(_within, (field, t, h)), h, x, first)
+        k = found.increments
+        end = x + jnp.asarray(tableau.weights, x.dtype) @ k
+        error = jnp.asarray(tableau.errors, x.dtype) @ k if tableau.errors else jnp.zeros_like(x)
+        none = h == 0  # as events leave behind
+        last = jnp.where(none, first, k[-1] / jnp.where(none, 1.0, h)).astype(x.dtype)
+        counts = Counts.of(
+            rates=found.corrections, jacobians=found.jacobians, corrections=found.corrections
+        )
+        dense = {"y0": x, "y1": end}
+        if self.solver.interpolation_cls is not dfx.LocalLinearInterpolation:
+            dense["k"] = k
+        return Made(end, error, dense, last, found.done, jnp.zeros_like(h), counts)
+
+
+def _within(fraction: Any, args: tuple[RightHandSide, Array, Array]) -> Rates:
+    field, t, h = args
+    return field.at(t + fraction * h)
