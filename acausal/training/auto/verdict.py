@@ -35,9 +35,9 @@ AT_ONCE = 16
 OFF, SENSITIVE = 1e-3, 20.0
 """Starts are moved by this part of the states' deviations; a model is sensitive if so many times as much changes."""
 
-LOOSE, MOST_SEEN = 0.1, (0.01, 0.99)
+LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
 """A law is hardly determined if two of its standard deviations are more than this part of its range in half of what its
-argument was seen at, rare values apart."""
+argument was seen at, rare values apart; or if they are more than the second part of it anywhere where it is steep."""""
 
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
@@ -163,11 +163,20 @@ def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
         low, high = np.quantile(fit.arguments[name][:, 0], MOST_SEEN)
         seen = (band.x >= low) & (band.x <= high)
         size = np.ptp(band.law[seen]) if seen.any() else 0.0
-        doubt = float(2 * np.median(band.sigma[seen]) / size) if size > 0 else 0.0
-        if doubt > LOOSE:
+        if not size > 0:
+            continue
+        doubt = 2 * band.sigma / size
+        steep, even = seen & band.steep, seen & ~band.steep
+        if even.any() and (usual := float(np.median(doubt[even]))) > LOOSE:
             yield (
-                f"The record hardly determines {name}: it is known to {100 * doubt:.2g} % of its range only "
+                f"The record hardly determines {name}: it is known to {100 * usual:.2g} % of its range only "
                 "(two standard deviations). Measure more, or where it matters more."
+            )
+        elif steep.any() and (most := float(doubt[steep].max())) > STEEP:
+            place = float(band.x[steep][np.argmax(doubt[steep])])
+            yield (
+                f"{name} is steep near {place:.2g}, and there it is known to {100 * most:.2g} % of its range only "
+                "(two standard deviations). Measure more there, in shorter intervals."
             )
 
 
