@@ -98,7 +98,7 @@ class Integration(eqx.Module):
         first_d: and with which discrete variables.
         events: of the model; None for one without.
         max_step: the longest step, in seconds; None: as long as its error allows.
-        max_tries: limit of steps, those that only search for the instant of an event included; None: as many as it takes.
+        max_tries: limit of steps, those that only search for the instant of an event included; None: none.
     """
 
     field: RightHandSide

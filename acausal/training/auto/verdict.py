@@ -37,7 +37,7 @@ OFF, SENSITIVE = 1e-3, 20.0
 
 LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
 """A law is hardly determined if two of its standard deviations are more than this part of its range in half of what its
-argument was seen at, rare values apart; or if they are more than the second part of it anywhere where it is steep."""""
+argument was seen at, rare values apart; or more than the second part of it anywhere where it is steep."""
 
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""

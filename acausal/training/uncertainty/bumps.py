@@ -49,8 +49,9 @@ class Stretched(eqx.Module):
 class Bumped(WithLaw):
     """A network whose law may change by bumps of its first argument, ``F(x) + Σ a_k φ_k(x)``, and keeps its promises.
 
-    A bump is ``exp(−(x − c_k)²/2w²)``, with a stretched coordinate in place of x where the law is steep. Where the law is zero at zero it is multiplied with ``1 − exp(−x²/2h²)``; where
-    the law is odd or even, its mirror image is subtracted or added.
+    A bump is ``exp(−(x − c_k)²/2w²)``, with a stretched coordinate in place of x where the law is steep. Where the law
+    is zero at zero it is multiplied with ``1 − exp(−x²/2h²)``; where the law is odd or even, its mirror image is
+    subtracted or added.
 
     Attributes:
         net: the network.

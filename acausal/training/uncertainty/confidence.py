@@ -4,10 +4,10 @@ A law may change by small bumps over the range of its argument in training; trai
 may what each record has for itself: a trained initial state, parameters of its own. The sensitivity of the whole
 simulation to all of them gives the Fisher information, whose inverse is their covariance: a Laplace approximation in
 the space of functions, independent of the number of weights of a network. It does not resolve details of a law that are
-narrower than a bump: half a standard deviation of its input, less where the learned law is steep. Where the law that
-explains the records best is another one, as after a training that has not come to its end, a band counts this, too. The changes keep what the law promises: zero at zero, odd
-or even, and bands stay where the sign is promised. Samples with correlated residuals count for less than one
-each.
+narrower than a bump: half a standard deviation of its input, less where the learned law is steep. Where the records ask
+for another law, as after a training that has not come to its end, the band counts how far that is, too. The changes
+keep what the law promises: zero at zero, odd or even, and bands stay where the sign is promised. Samples with
+correlated residuals count for less than one each.
 """
 
 from __future__ import annotations
@@ -60,6 +60,9 @@ BAD = 0.05
 
 MOVED = 1.0
 """So many standard deviations are too much to move by the error of the integration's steps."""
+
+LEVELS = np.linspace(0.0, 1.0, 41)
+"""Quantiles of a law's argument at which its deviation is taken."""
 
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
@@ -214,7 +217,7 @@ def confidence(
     params = problem.assemble(trainable)
     names, laws = problem.modifiers.names, problem.networks
     bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
-    heights = [np.full(len(bumped[n].centres), _size(params[n], bumped[n], seen[n])) for n in laws]
+    heights = [np.full(len(bumped[n].centres), _size(params[n], seen[n])) for n in laws]
     prior, own = _prior(problem, params), _own_deviations(problem, trainable)
     ways = [law_directions(params[n], seen[n]) if names else (0, None) for n in laws]
     deviations = np.concatenate([*heights, prior])
@@ -299,13 +302,10 @@ def confidence(
     )
 
 
-def _size(
-    network: Network, bumped: Bumped, seen: Float[np.ndarray, "n_calls n_arguments"]
-) -> float:
-    """How much a law may change, as far as nothing else is known: by its scale, or half of its range."""
-    within = np.clip(bumped.centres, seen[:, 0].min(), seen[:, 0].max())
-    law = np.asarray(law_at(network, within, seen[:, 1:].mean(axis=0)))
-    return max(output_scale(network), float(np.ptp(law)) / 2)
+def _size(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"]) -> float:
+    """How much a law may change, as far as nothing else is known: by its scale, or by its own deviation."""
+    law = np.asarray(law_at(network, np.quantile(seen[:, 0], LEVELS), seen[:, 1:].mean(axis=0)))
+    return max(output_scale(network), float(np.std(law)))
 
 
 def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> dict[str, float]:

@@ -29,7 +29,7 @@ def step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N n
 def move(
     blocks: Sequence[RecordJacobian], error: Float[np.ndarray, " rows"]
 ) -> tuple[Float[np.ndarray, " n"], float]:
-    """How an error of the predictions moves what all records have in common, and by how many standard deviations at most.
+    """How an error of the predictions moves what all records have in common; by how many standard deviations at most.
 
     Arguments:
         blocks: the Jacobian by record; the error is in standard deviations of the residuals, too.
