@@ -36,8 +36,8 @@ OFF, SENSITIVE = 1e-3, 20.0
 """Starts are moved by this part of the states' deviations; a model is sensitive if so many times as much changes."""
 
 LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
-"""A law is hardly determined if two of its standard deviations are more than this part of its range in half of what its
-argument was seen at, rare values apart; or more than the second part of it anywhere where it is steep."""
+"""A law is hardly determined if two of its standard deviations are more than this part of its range, or the second part
+where it is steep, anywhere in what its argument was seen at, rare values apart."""
 
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
@@ -166,17 +166,17 @@ def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
         if not size > 0:
             continue
         doubt = 2 * band.sigma / size
-        steep, even = seen & band.steep, seen & ~band.steep
+        even, over = seen & ~band.steep, doubt / np.where(band.steep, STEEP, LOOSE)
         if even.any() and (usual := float(np.median(doubt[even]))) > LOOSE:
             yield (
                 f"The record hardly determines {name}: it is known to {100 * usual:.2g} % of its range only "
                 "(two standard deviations). Measure more, or where it matters more."
             )
-        elif steep.any() and (most := float(doubt[steep].max())) > STEEP:
-            place = float(band.x[steep][np.argmax(doubt[steep])])
+        elif over[seen].max() > 1:
+            k = int(np.argmax(np.where(seen, over, 0.0)))
             yield (
-                f"{name} is steep near {place:.2g}, and there it is known to {100 * most:.2g} % of its range only "
-                "(two standard deviations). Measure more there, in shorter intervals."
+                f"{name} is known to {100 * doubt[k]:.2g} % of its range only near {band.x[k]:.2g} (two standard "
+                f"deviations){', where it is steep' * bool(band.steep[k])}. Measure more there."
             )
 
 

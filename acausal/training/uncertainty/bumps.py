@@ -23,7 +23,7 @@ BUMPS, SIGMAS = 12, 3.0
 
 STEEP, GRID, MOST = 0.3, 4001, 48
 """A law is steep where it changes by more than this part of its range over the width of a bump. So many points tell,
-and there are so many bumps at most then: closer by the power 3/2 of how much too steep it is."""
+and there are so many bumps at most then: closer by the square of how much too steep it is."""
 
 
 class Stretched(eqx.Module):
@@ -154,7 +154,7 @@ def _stretched(
     change = np.where(within[1:] & within[:-1], change, 0.0)
     if not change.max() > STEEP * size > 0:
         return None
-    rate = np.maximum(1.0, (change / (STEEP * size)) ** 1.5)
+    rate = np.maximum(1.0, (change / (STEEP * size)) ** 2)
     s = np.concatenate([[0.0], np.cumsum(rate * np.diff(x))])
     origin = 0.0 if x[0] < 0 < x[-1] else x[0]
     return Stretched(jnp.asarray(x), jnp.asarray(s - np.interp(origin, x, s) + origin))
