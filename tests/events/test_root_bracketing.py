@@ -1,12 +1,16 @@
 """A condition whose number jumps: its instant is found as exactly as that of a smooth one."""
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.events import look, no_bracketing
+from acausal.events.root_bracketing import TRIES
 
 
 class Counted(ac.Component):
@@ -30,3 +34,16 @@ def test_the_instant_of_a_jump_is_exact() -> None:
         (event,) = run.events
         assert abs(event.t - level) < 1e-14
         assert run["n"][-1] == 1
+
+
+def test_a_search_ends_where_shorter_steps_do_not_show_the_change() -> None:
+    """As where a trial explodes, and the interpolation within a long step is far from what shorter steps make."""
+    events: Any = SimpleNamespace(n_guards=1, timed=np.array([False]), strict=np.array([False]))
+    like = jnp.asarray(0.0)
+    d, deadband, t, h = jnp.zeros(1), jnp.zeros(1), jnp.asarray(0.01), jnp.asarray(1e-4)
+    shown = jnp.asarray([-1.0, -1.0, 1.0, 1.0, 1.0])[:, None]
+    found = look(events, no_bracketing(events, like), shown, deadband, d, t, h)
+    while not found.is_event:
+        bracketing = found.bracketing
+        found = look(events, bracketing, -jnp.ones((5, 1)), deadband, d, t, bracketing.h)
+    assert found.bracketing.tries < TRIES

@@ -3,6 +3,8 @@
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 from unittest.mock import ANY
 
 import jax
@@ -23,10 +25,11 @@ from acausal.networks import (
     with_scales,
 )
 from acausal.training.auto.step_choice import StepChoice, finer_steps
-from acausal.training.auto.verdict import is_sensitive
+from acausal.training.auto.verdict import _hardly_determined, is_sensitive
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
+from acausal.training.uncertainty.confidence import Band
 from benchmarks.by_default import NOISE, PROBLEMS, Known, by_default, fresh_error, law_error, record
 from tests.support.slow import some_slow
 from tests.training.test_checkpoint import stop
@@ -345,3 +348,19 @@ def test_a_fit_names_the_parameter_that_what_is_left_looks_like() -> None:
     assert not fit.verdict.good
     assert "mass.m changed by -" in str(fit.verdict)
     assert "modifiers=['mass.m']" in str(fit.verdict)
+
+
+def test_a_law_that_is_not_known_where_it_is_steep_is_said_to_be() -> None:
+    x = np.concatenate(
+        [np.linspace(-1, -0.05, 20), np.linspace(-0.04, 0.04, 60), np.linspace(0.05, 1, 20)]
+    )
+    sigma = np.where(np.abs(x) < 0.02, 0.1, 0.01)
+    band = Band(x, np.tanh(x / 0.02), sigma)
+    fit: Any = SimpleNamespace(
+        settings={"strategy": "auto"},
+        confidence=lambda: SimpleNamespace(laws={"brake.net": band}),
+        arguments={"brake.net": np.linspace(-1, 1, 500)[:, None]},
+    )
+    (sentence,) = _hardly_determined(fit)
+    assert sentence.startswith("brake.net is known to 10 % of its range only near ")
+    assert "where it is steep" in sentence

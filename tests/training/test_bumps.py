@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -24,6 +25,15 @@ LAWS: dict[str, Any] = {
     "passive energy": ac.networks.Energy(passive=True),
     "even": lambda key: Even(ac.networks.MLP(1, key=jax.random.key(key))),
 }
+
+
+class Tanh(eqx.Module):
+    """A law of a width."""
+
+    width: float
+
+    def __call__(self, x: jax.Array) -> jax.Array:
+        return jnp.tanh(x / self.width)
 
 
 def changed(name: str) -> Bumped:
@@ -95,3 +105,13 @@ def test_the_band_of_a_bounded_law_ends_at_its_bounds():
     low, high = Band(np.zeros(3), np.zeros(3), np.full(3, 9.0), limits=bounds_of(net)).bounds
     assert low.tolist() == [-2.0] * 3
     assert high.tolist() == [4.0] * 3
+
+
+def test_bumps_are_narrow_where_a_law_is_steep() -> None:
+    x = jnp.linspace(-1.5, 1.5, 1001)
+    smooth, steep = (bumped_law(Tanh(width), SEEN) for width in (0.4, 0.02))
+    assert smooth.stretched is None
+    half = [float(jnp.sum(jax.vmap(steep.bumps)(x)[:, k] > 0.5)) for k in range(len(steep.centres))]
+    at = np.asarray([float(x[np.argmax(jax.vmap(steep.bumps)(x)[:, k])]) for k in range(len(half))])
+    assert min(half) < 0.1 * max(half)
+    assert abs(at[np.argmin(half)]) < 0.05

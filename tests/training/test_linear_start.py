@@ -242,3 +242,27 @@ def test_a_positive_law_begins_at_a_constant(tmp_path: Path) -> None:
     ac.save_params({**system.parameters(), "friction.net": net}, tmp_path / "p.safetensors")
     loaded = ac.load_params(tmp_path / "p.safetensors", system)["friction.net"]
     assert [float(loaded(w)) for w in (0.0, 100.0, 200.0)] == values
+
+
+class Busy(ac.Component):
+    """A state that decays as a network says, and a condition that changes once in about every sample."""
+
+    net = ac.Module("_fresh")
+    x, y = ac.Variable(start=1.0, fixed=True), ac.Variable(fixed=True)
+    n = ac.Discrete(0, kind="int")
+
+    def _fresh(self, key: Any) -> Any:
+        return Law(width=4, depth=1)(key)
+
+    def equations(self) -> Any:
+        yield ac.Eq(ac.der(self.x), -self.net(self.x))
+        yield ac.Eq(ac.der(self.y), 1)
+        yield ac.When(ac.sin(3e4 * self.y) > 0, ac.Eq(self.n, ac.pre(self.n) + 1))
+
+
+def test_a_trial_that_runs_from_event_to_event_is_given_up() -> None:
+    problem = problem_of(Busy(), "x", x=np.exp(-T))
+    free = problem.simulate(problem.start()).loss
+    held = replace(problem, tries=0)
+    assert np.isfinite(free)
+    assert not np.isfinite(held.simulate(held.start()).loss)

@@ -279,7 +279,9 @@ def advance(
         ahead = (c.ahead + (at_break & (c.ahead < len(problem.breaks)))).astype(jnp.int32)
         searching = jnp.array(False) if seen is None else seen.bracketing.active
         counts = c.counts.plus(made.counts).plus(landing.cost)
-        counts = counts.plus(Counts.of(steps=ok, rejected=~ok & ~searching))
+        counts = counts.plus(
+            Counts.of(steps=ok, rejected=~ok & ~searching, searches=~ok & searching)
+        )
         made_of = counts.steps + counts.rejected
         if problem.field.has_edges:
             at_edge = ok & ((row.kind == BEND) | (row.kind == EDGE))
@@ -289,6 +291,9 @@ def advance(
             free = ok & ~to_stop
             counts = counts.plus(Counts.of(by_wave=free & by_wave, by_span=free & by_span))
         why = jnp.where(made_of >= problem.max_steps, EXHAUSTED, -1)
+        if problem.max_tries is not None:
+            tries = counts.steps + counts.rejected + counts.searches
+            why = jnp.where(tries >= problem.max_tries, EXHAUSTED, why)
         why = jnp.where(~ok & ~searching & (c.t + memory.h <= c.t), TOO_SHORT, why)
         reached, events = t >= problem.end, None
         if seen is not None:

@@ -138,6 +138,7 @@ def integrate_in_steps(
     outputs: Sequence[str] = (),
     direct: bool = False,
     runs: Runs | None = None,
+    tries: int | None = None,
 ) -> Integrated:
     """Integrate the model over some rows. Pure: trace, differentiate and map it.
 
@@ -145,6 +146,8 @@ def integrate_in_steps(
         system, start, substeps, outputs, direct, runs: as for `fixed_steps.integrate`.
         steps: the n rows and their inputs; steps end at each where the model has inputs, or events.
         solver: adaptive steps; or, for a model with events, a scheme of fixed ones.
+        tries: so many steps of given length that a row takes on average at most, those that only search for the instant
+            of an event included; ``None``: as many as it takes.
 
     Returns:
         States and outputs at the rows' starts, and the state at the end; NaN from where a step cannot be made.
@@ -193,6 +196,7 @@ def integrate_in_steps(
         most,
         *others,
         events=events,
+        max_tries=None if tries is None else tries * n * parts + FEWEST,
     )
     log = None if d0 is None else Log.empty(len(start.x) + len(d0), dtype, values=0)
     jacobian = system.state_jacobian

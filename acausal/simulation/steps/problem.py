@@ -98,6 +98,7 @@ class Integration(eqx.Module):
         first_d: and with which discrete variables.
         events: of the model; None for one without.
         max_step: the longest step, in seconds; None: as long as its error allows.
+        max_tries: limit of steps, those that only search for the instant of an event included; None: none.
     """
 
     field: RightHandSide
@@ -115,6 +116,7 @@ class Integration(eqx.Module):
     first_d: Float[Array, "n_breaks n_discrete"] | None = None
     events: Events | None = eqx.field(static=True, default=None)
     max_step: Float[Array, ""] | None = None
+    max_tries: int | None = eqx.field(static=True, default=None)
 
     @property
     def watched(self) -> Events:
@@ -176,6 +178,7 @@ class Counts(NamedTuple):
         corrections: Newton steps.
         edges: steps that end at an edge. by_wave, by_span: steps as long as a sine of time, or `max_step`, allows.
         looks: steps that are repeated for what a look inside has shown.
+        searches: steps that only search for the instant of an event.
     """
 
     steps: Int[Array, ""]
@@ -187,6 +190,7 @@ class Counts(NamedTuple):
     by_wave: Int[Array, ""]
     by_span: Int[Array, ""]
     looks: Int[Array, ""]
+    searches: Int[Array, ""]
 
     @staticmethod
     def of(**numbers: Any) -> Counts:

@@ -45,7 +45,7 @@ ALMOST = 0.2
 PIECE, PIECES = 25, 60
 """Samples of the pieces of records in which it is sought where it explains nothing; and how many pieces."""
 
-CLOSE, GOOD = 1.05, 1.1
+CLOSE, GOOD = 1.0, 1.1
 """A fit with a loss below this many times that of the noise is not trained longer, or not in any other way."""
 
 FEW = 60

@@ -47,6 +47,10 @@ LOOSE, LITTLE, LIKELY = 1.0, 0.01, 0.5
 """A constant is loose if its standard deviation is more than so much of its law, if the loss rises by less than this
 part without it, and if the starts and parameters that go with it are as likely: within one standard deviation."""
 
+TRIES = 8
+"""Steps, searches for events included, that a row takes on average at most: one trial that runs from event to event
+would hold up all others of its batch."""
+
 UNSEEN = 1e-12
 """Curvature, relative to that of each number alone, below which the loss is flat apart from rounding."""
 
@@ -92,14 +96,17 @@ class LinearStart:
     title: str = "linear law"
 
 
-def linear_start(problem: Problem, shapes: dict[str, LawShape]) -> LinearStart:
+def linear_start(
+    problem: Problem, shapes: dict[str, LawShape], tries: int | None = TRIES
+) -> LinearStart:
     """The linear laws that explain records best.
 
     Arguments:
         problem: with the `linear_module` of every network in ``shapes``; what else it trains is trained, too.
         shapes: by network, what linear laws may be like.
+        tries: as of `Simulator`; where no trial does with so few, any number is allowed.
     """
-    objective = over_whole_record(problem)
+    objective = replace(over_whole_record(problem), tries=tries)
     start, _ = ravel_pytree(objective.start())
     places = _places(objective, shapes)
     found = _Points(objective, len(start))
@@ -119,6 +126,8 @@ def linear_start(problem: Problem, shapes: dict[str, LawShape]) -> LinearStart:
         if shapes[name].divides and kept:
             base = base + kept[0]
             best[name,] = []
+    if tries is not None and problem.system.events is not None and not np.isfinite(least):
+        return linear_start(problem, shapes, None)
     if least > ALONE * np.sqrt(len(problem.targets)):
         for names in itertools.combinations(shapes, 2):
             own = _together(base, [places[n][0] for n in names])

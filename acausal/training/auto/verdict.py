@@ -35,9 +35,9 @@ AT_ONCE = 16
 OFF, SENSITIVE = 1e-3, 20.0
 """Starts are moved by this part of the states' deviations; a model is sensitive if so many times as much changes."""
 
-LOOSE, MOST_SEEN = 0.1, (0.01, 0.99)
-"""A law is hardly determined if two of its standard deviations are more than this part of its range in half of what its
-argument was seen at, rare values apart."""
+LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
+"""A law is hardly determined if two of its standard deviations are more than this part of its range, or the second part
+where it is steep, anywhere in what its argument was seen at, rare values apart."""
 
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
@@ -163,11 +163,20 @@ def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
         low, high = np.quantile(fit.arguments[name][:, 0], MOST_SEEN)
         seen = (band.x >= low) & (band.x <= high)
         size = np.ptp(band.law[seen]) if seen.any() else 0.0
-        doubt = float(2 * np.median(band.sigma[seen]) / size) if size > 0 else 0.0
-        if doubt > LOOSE:
+        if not size > 0:
+            continue
+        doubt = 2 * band.sigma / size
+        even, over = seen & ~band.steep, doubt / np.where(band.steep, STEEP, LOOSE)
+        if even.any() and (usual := float(np.median(doubt[even]))) > LOOSE:
             yield (
-                f"The record hardly determines {name}: it is known to {100 * doubt:.2g} % of its range only "
+                f"The record hardly determines {name}: it is known to {100 * usual:.2g} % of its range only "
                 "(two standard deviations). Measure more, or where it matters more."
+            )
+        elif over[seen].max() > 1:
+            k = int(np.argmax(np.where(seen, over, 0.0)))
+            yield (
+                f"{name} is known to {100 * doubt[k]:.2g} % of its range only near {band.x[k]:.2g} (two standard "
+                f"deviations){', where it is steep' * bool(band.steep[k])}. Measure more there."
             )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
@@ -62,6 +63,8 @@ class Simulator(eqx.Module):
         shooting: the states at which sequences begin, where they are trained, too.
         solver, substeps: the scheme, and the number of its steps from sample to sample; or adaptive steps.
         dtype: the precision of steps; of weights and losses it is double.
+        tries: steps and searches for events that a row may take on average before a simulation counts as diverged;
+            ``None``: as many as it takes.
     """
 
     system: System = eqx.field(static=True)
@@ -75,6 +78,7 @@ class Simulator(eqx.Module):
     solver: Scheme | Adaptive = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
     dtype: np.dtype = eqx.field(static=True)
+    tries: int | None = eqx.field(static=True, default=None, kw_only=True)
 
     @property
     def longest_step(self) -> float:
@@ -177,7 +181,7 @@ class Simulator(eqx.Module):
         first: Any = steps.t[0]
         start = Values(first, x0, steps.inputs.start[0], packed)
         in_steps = self.system.events is not None or isinstance(self.solver, Adaptive)
-        over: Any = integrate_in_steps if in_steps else integrate
+        over: Any = partial(integrate_in_steps, tries=self.tries) if in_steps else integrate
         found = over(
             self.system,
             start,

@@ -15,7 +15,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal._jax import compiled
-from acausal.networks import EnergyLaw, WithLaw, kept_promises, law_of, rise_of
+from acausal.networks import EnergyLaw, WithLaw, kept_promises, law_at, law_of, rise_of
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Network
 
@@ -23,11 +23,37 @@ BUMPS, SIGMAS = 12, 3.0
 """Bumps of each law, evenly over so many sigmas of its inputs to either side."""
 
 
+STEEP, GRID, MOST = 0.3, 4001, 48
+"""A law is steep where it changes by more than this part of its range over the width of a bump. So many points tell,
+and there are so many bumps at most then: closer by the square of how much too steep it is."""
+
+
+class Stretched(eqx.Module):
+    """A coordinate in place of a law's argument that runs faster where the law is steep.
+
+    Attributes:
+        x: values of the argument, increasing. s: the coordinate there.
+    """
+
+    x: Float[Array, " points"]
+    s: Float[Array, " points"]
+
+    def __call__(self, x: Array) -> Array:
+        """The coordinate."""
+        inside = jnp.clip(x, self.x[0], self.x[-1])
+        return jnp.interp(inside, self.x, self.s) + x - inside
+
+    def back(self, s: ArrayLike) -> Array:
+        """The argument."""
+        return jnp.interp(jnp.asarray(s), self.s, self.x)
+
+
 class Bumped(WithLaw):
     """A network whose law may change by bumps of its first argument, ``F(x) + Σ a_k φ_k(x)``, and keeps its promises.
 
-    A bump is ``exp(−(x − c_k)²/2w²)``. Where the law is zero at zero it is multiplied with ``1 − exp(−x²/2h²)``; where
-    the law is odd or even, its mirror image is subtracted or added.
+    A bump is ``exp(−(x − c_k)²/2w²)``, with a stretched coordinate in place of x where the law is steep. Where the law
+    is zero at zero it is multiplied with ``1 − exp(−x²/2h²)``; where the law is odd or even, its mirror image is
+    subtracted or added.
 
     Attributes:
         net: the network.
@@ -35,6 +61,7 @@ class Bumped(WithLaw):
         centres: of the bumps; ``width``: of all.
         hole: the width h; ``None`` where the law need not be zero at zero.
         mirrored: −1 for an odd law, 1 for an even one, else 0.
+        stretched: the coordinate; ``None`` for x itself.
     """
 
     net: Network
@@ -43,6 +70,12 @@ class Bumped(WithLaw):
     width: Float[Array, ""]
     hole: Float[Array, ""] | None = None
     mirrored: int = eqx.field(static=True, default=0)
+    stretched: Stretched | None = None
+
+    def points(self, count: int) -> Float[Array, " count"]:
+        """Values of the argument from the first to the last bump, closer where the law is steep."""
+        even = jnp.linspace(self.centres[0], self.centres[-1], count)
+        return even if self.stretched is None else self.stretched.back(even)
 
     def __call__(self, *inputs: Float[Array, ""]) -> Float[Array, ""]:
         """The law, or the energy whose derivative it is."""
@@ -66,6 +99,7 @@ class Bumped(WithLaw):
 
     def _one_side(self, x: Float[Array, ""], shape: Shape) -> Float[Array, " n_bumps"]:
         """A bump less its product with the bump at zero, which is a bump again, or the areas of both."""
+        x = x if self.stretched is None else self.stretched(x)
         whole = shape(x, self.centres, self.width)
         if self.hole is None:
             return whole
@@ -98,7 +132,43 @@ def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"])
     width = jnp.asarray(centres[1] - centres[0])
     mirrored = -1 if "odd" in kept else 1 if "even" in kept else 0
     hole = jnp.minimum(width, rise_of(network)) if "zero" in kept and mirrored >= 0 else None
-    return Bumped(network, jnp.zeros(BUMPS), jnp.asarray(centres), width, hole, mirrored)
+    stretched = None if isinstance(network, EnergyLaw) else _stretched(network, seen, centres)
+    if stretched is not None:
+        first, last = stretched.s[0], stretched.s[-1]
+        count = min(int((last - first) / width) + 2, MOST)
+        centres = np.linspace(first, last, count)
+        width = jnp.asarray(centres[1] - centres[0])
+    heights = jnp.zeros(len(centres))
+    return Bumped(network, heights, jnp.asarray(centres), width, hole, mirrored, stretched)
+
+
+def _stretched(
+    network: Network,
+    seen: Float[np.ndarray, "n_calls n_arguments"],
+    centres: Float[np.ndarray, " n_bumps"],
+) -> Stretched | None:
+    """The coordinate in which a law is nowhere steep, if it is anywhere; zero stays zero."""
+    x = np.linspace(centres[0], centres[-1], GRID)
+    law = np.asarray(law_at(network, x, seen[:, 1:].mean(axis=0)))
+    within = (x >= seen[:, 0].min()) & (x <= seen[:, 0].max())
+    size = float(np.ptp(law[within])) if within.any() else 0.0
+    change = np.abs(np.diff(law)) * (centres[1] - centres[0]) / (x[1] - x[0])
+    change = np.where(within[1:] & within[:-1], change, 0.0)
+    if not change.max() > STEEP * size > 0:
+        return None
+    rate = np.maximum(1.0, (change / (STEEP * size)) ** 2)
+    s = np.concatenate([[0.0], np.cumsum(rate * np.diff(x))])
+    origin = 0.0 if x[0] < 0 < x[-1] else x[0]
+    return Stretched(jnp.asarray(x), jnp.asarray(s - np.interp(origin, x, s) + origin))
+
+
+def split(bumped: Mapping[str, Bumped], rows: Any) -> tuple[dict[str, Any], Any]:
+    """By law, the rows of its bumps; and what follows them."""
+    found, first = dict[str, Any](), 0
+    for name, law in bumped.items():
+        last = first + len(law.centres)
+        found[name], first = rows[first:last], last
+    return found, rows[first:]
 
 
 @compiled
@@ -114,9 +184,7 @@ def with_changes(
     changes: Float[Array, " n"],
 ) -> dict[str, Any]:
     """Parameters after changes: heights of the bumps of all laws, then the changes of trained parameters."""
-    laws = {
-        name: replace(law, heights=changes[k * BUMPS : (k + 1) * BUMPS])
-        for k, (name, law) in enumerate(bumped.items())
-    }
-    moved = dict(zip(problem.modifiers.names, changes[BUMPS * len(laws) :], strict=True))
+    heights, rest = split(bumped, changes)
+    laws = {name: replace(law, heights=heights[name]) for name, law in bumped.items()}
+    moved = dict(zip(problem.modifiers.names, rest, strict=True))
     return problem.modifiers.changed({**params, **laws}, moved)

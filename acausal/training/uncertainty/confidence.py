@@ -4,9 +4,10 @@ A law may change by small bumps over the range of its argument in training; trai
 may what each record has for itself: a trained initial state, parameters of its own. The sensitivity of the whole
 simulation to all of them gives the Fisher information, whose inverse is their covariance: a Laplace approximation in
 the space of functions, independent of the number of weights of a network. It does not resolve details of a law that are
-narrower than a bump, half a standard deviation of its input. The changes keep what the law promises: zero at zero, odd
-or even, and bands stay where the sign is promised. Samples with correlated residuals count for less than one
-each.
+narrower than a bump: half a standard deviation of its input, less where the learned law is steep. Where the records ask
+for another law, as after a training that has not come to its end, the band counts how far that is, too. The changes
+keep what the law promises: zero at zero, odd or even, and bands stay where the sign is promised. Samples with
+correlated residuals count for less than one each.
 """
 
 from __future__ import annotations
@@ -30,17 +31,17 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.bumps import (
-    BUMPS,
     Bumped,
     Network,
     bumped_law,
     bumps_at,
+    split,
     with_changes,
 )
 from acausal.training.uncertainty.confidence_view import confidence_view
 from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
 from acausal.training.uncertainty.residuals import correlation_time, unexplained
-from acausal.training.uncertainty.step_error import largest_move, step_error
+from acausal.training.uncertainty.step_error import move, step_error
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
 
 BAND_POINTS = 201
@@ -66,6 +67,9 @@ BAD = 0.05
 
 MOVED = 1.0
 """So many standard deviations are too much to move by the error of the integration's steps."""
+
+LEVELS = np.linspace(0.0, 1.0, 41)
+"""Quantiles of a law's argument at which its deviation is taken."""
 
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
@@ -101,6 +105,12 @@ class Band:
             low = np.maximum.accumulate(low[along])[along]
             high = np.minimum.accumulate(high[along][::-1])[::-1][along]
         return np.maximum(low, self.limits[0]), np.minimum(high, self.limits[1])
+
+    @property
+    def steep(self) -> Bool[np.ndarray, " points"]:
+        """Where a law is steep: there points lie closer."""
+        apart = np.gradient(self.x)
+        return apart < 0.5 * apart.max()
 
     def times(self, factor: float) -> Band:
         """The band of a multiple."""
@@ -214,12 +224,12 @@ def confidence(
     params = problem.assemble(trainable)
     names, laws = problem.modifiers.names, problem.networks
     bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
-    heights = [np.full(BUMPS, _size(params[n], bumped[n], seen[n])) for n in laws]
+    heights = [np.full(len(bumped[n].centres), _size(params[n], seen[n])) for n in laws]
     prior, own = _prior(problem, params), _own_deviations(problem, trainable)
     ways = [law_directions(params[n], seen[n]) if names else (0, None) for n in laws]
     deviations = np.concatenate([*heights, prior])
     count, alone = len(deviations), len(own)
-    ends = np.cumsum([BUMPS * len(laws), len(names), alone]).tolist()
+    ends = np.cumsum([sum(map(len, heights)), len(names), alone]).tolist()
     bounds = np.cumsum([0, *(n for n, _ in ways)]).tolist()
 
     def changed(z: Float[Array, " n"]) -> tuple[Trainable, dict[str, Any]]:
@@ -258,6 +268,8 @@ def confidence(
         )
     ]
     error = np.where(counts, step_error(problem, trainable) * (factor / least), 0.0)
+    rest = np.where(counts, left * (factor / least), 0.0)
+    onward = deviations * move(blocks, rest.ravel())[0]
     blocks += _earlier(problem, changed, len(scale), blocks[0])
     samples = float(np.sum(n / alike)) + sum(len(b.common) for b in blocks[problem.records.count :])
     found = posterior_covariance(blocks, samples)
@@ -275,9 +287,10 @@ def confidence(
     }
     taken = np.array([any(v > TAKEN for v in with_laws[n].values()) for n in names], dtype=bool)
     known = np.where(taken, np.maximum(sigma, prior), sigma)
+    parts, _ = split(bumped, np.arange(count))
     bands = {
-        n: _band(params[n], bumped[n], covariance[k : k + BUMPS, k : k + BUMPS], seen[n])
-        for n, k in zip(laws, range(0, ends[0], BUMPS), strict=True)
+        n: _band(params[n], bumped[n], onward[own], covariance[np.ix_(own, own)], seen[n])
+        for n, own in parts.items()
     }
     return Confidence(
         bands,
@@ -288,7 +301,7 @@ def confidence(
         dict(zip(problem.targets, noise.tolist(), strict=True)),
         dict(zip(problem.targets, alike.tolist(), strict=True)),
         _unexplained(problem, left),
-        largest_move(blocks[: problem.records.count], error.ravel()),
+        move(blocks[: problem.records.count], error.ravel())[1],
         _about(problem, trainable, sigma, prior, taken),
         _as_prior(
             problem, params, bumped, seen, found.root / deviations, float(n @ alike / n.sum())
@@ -296,13 +309,10 @@ def confidence(
     )
 
 
-def _size(
-    network: Network, bumped: Bumped, seen: Float[np.ndarray, "n_calls n_arguments"]
-) -> float:
-    """How much a law may change, as far as nothing else is known: by its scale, or half of its range."""
-    within = np.clip(bumped.centres, seen[:, 0].min(), seen[:, 0].max())
-    law = np.asarray(law_at(network, within, seen[:, 1:].mean(axis=0)))
-    return max(output_scale(network), float(np.ptp(law)) / 2)
+def _size(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"]) -> float:
+    """How much a law may change, as far as nothing else is known: by its scale, or by its own deviation."""
+    law = np.asarray(law_at(network, np.quantile(seen[:, 0], LEVELS), seen[:, 1:].mean(axis=0)))
+    return max(output_scale(network), float(np.std(law)))
 
 
 def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> dict[str, float]:
@@ -341,8 +351,7 @@ def _as_prior(
     """What is known now, as the prior of a later training; ``root`` as of `Prior`."""
 
     def one(name: str) -> LawPrior:
-        centres = bumped[name].centres
-        points = jnp.linspace(centres[0], centres[-1], POINTS_EACH * BUMPS)
+        points = bumped[name].points(POINTS_EACH * len(bumped[name].centres))
         rest = jnp.asarray(seen[name][:, 1:].mean(axis=0))
         heights = np.linalg.pinv(np.asarray(bumps_at(bumped[name], points)))
         return LawPrior(points, rest, law_at(params[name], points, rest), jnp.asarray(heights))
@@ -472,13 +481,14 @@ def _sensitivity(
 def _band(
     network: Network,
     bumped: Bumped,
+    onward: Float[np.ndarray, " n_bumps"],
     covariance: Float[np.ndarray, "n_bumps n_bumps"],
     seen: Float[np.ndarray, "n_calls n_arguments"],
 ) -> Band:
-    x = np.linspace(float(bumped.centres[0]), float(bumped.centres[-1]), BAND_POINTS)
+    x = np.asarray(bumped.points(BAND_POINTS))
     rest = seen[:, 1:].mean(axis=0)
     shapes = np.asarray(bumps_at(bumped, x))
-    variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
+    variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes) + (shapes @ onward) ** 2
     kept = kept_promises(network)
     sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0
     return Band(

@@ -1,4 +1,4 @@
-"""How far the error of fixed steps moves what is trained, in standard deviations that do not count it."""
+"""How far errors of the predictions move what is trained: that of fixed steps, and what a training has left."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
+from scipy.linalg import solve_triangular
 
 from acausal.simulation import Adaptive
 from acausal.training.objective.problem import Problem
@@ -25,8 +26,10 @@ def step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N n
     return np.asarray(problem.finer().simulate(trainable).y) - known
 
 
-def largest_move(blocks: Sequence[RecordJacobian], error: Float[np.ndarray, " rows"]) -> float:
-    """By how many standard deviations an error of the predictions moves what all records have in common, at most.
+def move(
+    blocks: Sequence[RecordJacobian], error: Float[np.ndarray, " rows"]
+) -> tuple[Float[np.ndarray, " n"], float]:
+    """How an error of the predictions moves what all records have in common; by how many standard deviations at most.
 
     Arguments:
         blocks: the Jacobian by record; the error is in standard deviations of the residuals, too.
@@ -46,5 +49,6 @@ def largest_move(blocks: Sequence[RecordJacobian], error: Float[np.ndarray, " ro
         left.append(shift - basis @ (basis.T @ shift))
     n = blocks[0].common.shape[1]
     matrix = np.concatenate([*rows, np.eye(n)])  # the prior
-    basis = np.linalg.qr(matrix)[0][: len(matrix) - n]
-    return float(np.linalg.norm(basis.T @ np.concatenate(left)))
+    basis, root = np.linalg.qr(matrix)
+    along = basis[: len(matrix) - n].T @ np.concatenate(left)
+    return solve_triangular(root, along), float(np.linalg.norm(along))
