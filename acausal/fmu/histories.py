@@ -173,7 +173,7 @@ class Histories:
         if (known := self._afters.get(key)) is not None:
             return known
         last = self.event(event.before)
-        same = (last.time, last.inputs, last.signs) == (event.time, event.inputs, event.signs)
+        same = (last.time, last.inputs) == (event.time, event.inputs)
         instance = self.instance(parameters, event.before)
         if same:  # it has gone through this event
             return self._keep(key, AfterEvent(event.before, instance.due, event.states, 0))
@@ -192,6 +192,6 @@ class Histories:
 
 
 def _free_all(instances: OrderedDict[Any, Instance]) -> None:
-    for instance in instances.values():
+    for instance in list(instances.values()):
         instance.free()
     instances.clear()
