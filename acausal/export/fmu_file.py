@@ -18,6 +18,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from acausal._jax import compiled
 from acausal.codegen import Values
 from acausal.errors import (
     DataError,
@@ -28,7 +29,7 @@ from acausal.errors import (
     shown,
     user_level,
 )
-from acausal.events import updated
+from acausal.events import Events, updated
 from acausal.export.c_file import model_text
 from acausal.export.c_text.header import header as header_in_c
 from acausal.export.c_text.source import source
@@ -221,14 +222,19 @@ def _stable(
 def _switch_positions(system: System, at: Values) -> Iterator[Any]:
     """Discrete variables at the start, and with one condition after the other, or all, the opposite."""
     events = system.events
-    if events is None:
+    if events is None or at.d is None:
         yield None
         return
-    assert at.d is not None
     n = events.n_guards
     yield at.d
     flipped = jnp.abs(jnp.concatenate([jnp.eye(n)[:MOST_POSITIONS], jnp.ones((1, n))]) - at.d[:n])
-    yield from jax.vmap(lambda conditions: updated(events, at, at, conditions))(flipped)
+    yield from _discrete_variables(events, at, flipped)
+
+
+@compiled
+def _discrete_variables(events: Events, at: Values, conditions: jax.Array) -> jax.Array:
+    """Those that follow from some conditions, a row for each of these."""
+    return jax.vmap(lambda row: updated(events, at, at, row))(conditions)
 
 
 def _experiment(system: System) -> tuple[float, ...]:
