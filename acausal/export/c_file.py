@@ -26,6 +26,7 @@ from acausal.export.target import target_of
 from acausal.export.vector import ParameterVector
 from acausal.files import need_path, new_file, write_files
 from acausal.modeling import names_in
+from acausal.simulation import limits_of
 from acausal.system import System
 
 _KEYWORDS = """auto break case char const continue default do double else enum extern float for goto if inline int long
@@ -35,9 +36,9 @@ _MATH = """acos asin atan atan2 ceil cos cosh exp expm1 fabs floor fmax fmin fmo
 nearbyint pow remainder round signbit sin sinh sqrt tan tanh tgamma lgamma erf erfc cbrt trunc real"""
 
 _OWN = """all_finite attempt came_true condition_rates conditions copy end_with_event equal excess factor fill_d fill_p
-fill_x find_due find_edge fire force iterate jacobian_column jumped look look_at_points lu_factor lu_solve maximum
-minimum next_length outputs rates recalibrate resets same signum solve_stage strict switched tangent ticks timed updated
-x u y p d t m h Model Status"""
+fill_x find_due find_edge fire force iterate jacobian_column jumped look look_at_points limits lu_factor lu_solve
+maximum minimum next_length outputs rates recalibrate resets same signum solve_stage strict switched tangent ticks timed
+updated within_limits x u y p d t m h Model Status"""
 
 RESERVED = frozenset(f"{_KEYWORDS} {_MATH} {_OWN}".split())
 """Words of C, of its mathematics, and of the functions in a model's file."""
@@ -144,7 +145,7 @@ def model_text(
     return ModelText(
         chosen, title, real, code, solver, scheme, vector,
         _states(system), _with_units(system.inputs, system),
-        _with_units(wanted, system), parameters, start,
+        _with_units(wanted, system), parameters, start, limits_of(system, start),
         tuple(_discrete(system)), start_d,
     )  # fmt: skip
 

@@ -6,7 +6,7 @@ import hashlib
 import math
 import warnings
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from importlib.resources import files as package_files
@@ -14,9 +14,11 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
+from acausal._jax import compiled
 from acausal.codegen import Values
 from acausal.errors import (
     DataError,
@@ -27,6 +29,7 @@ from acausal.errors import (
     shown,
     user_level,
 )
+from acausal.events import Events, updated
 from acausal.export.c_file import model_text
 from acausal.export.c_text.header import header as header_in_c
 from acausal.export.c_text.source import source
@@ -61,6 +64,8 @@ STEP = 1e-3
 """The longest default step of co-simulation [s]."""
 SHORTEST = 1e-6
 """The shortest [s]; for a model that needs shorter ones an implicit solver is better."""
+MOST_POSITIONS = 50
+"""Of so many conditions the opposite is looked at."""
 
 
 def fmu(
@@ -95,7 +100,8 @@ def fmu(
         outputs: names of variables, by default the states.
         solver: of co-simulation, a fixed-step one as in `acausal.export.c`.
         step: of co-simulation, at most [s]; a communication step is divided into equal steps, inputs held. By default
-            1e-3, or less where an explicit solver needs that for the model's fastest mode at the start.
+            1e-3, or less where an explicit solver needs that for the model's fastest mode at the start, or where one
+            of its conditions is the opposite of what it is there.
         name: of files in the FMU; by default the model's class in small letters.
         ranges: by network the interval of its argument in training, or one for each argument, such as ``fit.ranges``:
             the Boolean output ``outside_training_range`` tells whether an argument has left its range.
@@ -188,23 +194,47 @@ def _content(
 def _stable(
     system: System, text: ModelText, params: Mapping[str, Any] | None, step: float, is_default: bool
 ) -> float:
-    """The step, or by default a shorter one, at which an explicit solver is stable at the start."""
-    d = jnp.asarray(text.discrete_start) if text.has_events else None
-    u, packed = jnp.zeros((1, len(system.inputs))), system.pack(params)
-    damping = fastest_mode(
-        system, Values(jnp.zeros(1), jnp.asarray(text.start)[None], u, packed, d)
-    )[0]
+    """The step, or by default a shorter one, at which an explicit solver is stable at the start.
+
+    There conditions are what they are, and each of them in turn the opposite: a diode that blocks will conduct.
+    """
+    x, u = jnp.asarray(text.start), jnp.zeros(len(system.inputs))
+    at = Values(jnp.zeros(()), x, u, system.pack(params), jnp.asarray(text.discrete_start))
+    rows = at._replace(t=jnp.zeros(1), x=x[None], u=u[None])
+    modes = [fastest_mode(system, rows._replace(d=d))[0] for d in _switch_positions(system, at)]
+    damping = max(modes)
     if damping * step <= STABILITY_LIMIT:
         return step
     needed = 10 ** np.floor(np.log10(1 / damping))
     if is_default and needed >= SHORTEST:
         return float(needed)
+    where = "at the start"
+    if damping > modes[0]:
+        where = "where a condition is not what it is at the start"
     warnings.warn(
         f"export.fmu: steps of {step:g} s are too long for '{text.solver}' and the model's fastest mode, "
-        f"{damping:.3g} 1/s at the start; give step={needed:.1g}, or an implicit solver such as solver='kvaerno3'.",
+        f"{damping:.3g} 1/s {where}; give step={needed:.1g}, or an implicit solver such as solver='kvaerno3'.",
         stacklevel=user_level(),
     )
     return step
+
+
+def _switch_positions(system: System, at: Values) -> Iterator[Any]:
+    """Discrete variables at the start, and with one condition after the other, or all, the opposite."""
+    events = system.events
+    if events is None or at.d is None:
+        yield None
+        return
+    n = events.n_guards
+    yield at.d
+    flipped = jnp.abs(jnp.concatenate([jnp.eye(n)[:MOST_POSITIONS], jnp.ones((1, n))]) - at.d[:n])
+    yield from _discrete_variables(events, at, flipped)
+
+
+@compiled
+def _discrete_variables(events: Events, at: Values, conditions: jax.Array) -> jax.Array:
+    """Those that follow from some conditions, a row for each of these."""
+    return jax.vmap(lambda row: updated(events, at, at, row))(conditions)
 
 
 def _experiment(system: System) -> tuple[float, ...]:

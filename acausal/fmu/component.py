@@ -289,7 +289,7 @@ class FMU(Component):
                     yield Eq(result, known[name].conversion.to_model(found))
             place += known[name].size
         if self._has_events:
-            yield from self._events(place, arguments, states, inputs)
+            yield from self._events(place, states, inputs)
 
     def _communication(self, inputs: list[Any]) -> When:
         """The step to a communication point, and the inputs that hold from there on."""
@@ -315,15 +315,14 @@ class FMU(Component):
         starts = [(n, s) for n in self._part.inputs for s in known[n].starts]
         return [u if n in depends else s for u, (n, s) in zip(inputs, starts, strict=True)]
 
-    def _events(
-        self, place: int, arguments: list[Any], states: list[Any], inputs: list[Any]
-    ) -> Iterable[Eq | When]:
+    def _events(self, place: int, states: list[Any], inputs: list[Any]) -> Iterable[Eq | When]:
         indicators = list(self[INDICATORS])
-        for i, indicator in enumerate(indicators):
-            yield Eq(indicator, self.computed(place + i, *arguments))
+        before = self._arguments(pre(self[HISTORY]), inputs)
+        for i, indicator in enumerate(indicators):  # an event is in the mode before it
+            yield Eq(indicator, self.computed(place + i, *before))
         signs = [where(z > 0, 1, 0, events=True) for z in indicators]
-        due = where(time >= self[NEXT], 1, 0, events=True)
-        given = [*self._arguments(pre(self[HISTORY]), inputs), *signs, due]
+        due = where(time >= pre(self[NEXT]), 1, 0, events=True)
+        given = [*before, *signs, due]
         yield Eq(self[HISTORY], self.event(0, *given))
         yield Eq(self[NEXT], self.event(1, *given))
         if self._part.step:  # at an event, a step of the integration ends

@@ -48,13 +48,14 @@ class AfterEvent(NamedTuple):
     """What is behind an event: number of the history, next time event, numbers; and how often it was shifted.
 
     Attributes:
-        numbers: the states, or the outputs of a communication step.
+        numbers: the states, or the outputs of a communication step. signs: which indicators are positive then.
     """
 
     history: int
     next: float
     numbers: bytes
     shifts: int
+    signs: bytes = b""
 
 
 class Histories:
@@ -158,7 +159,7 @@ class Histories:
         try:
             for event in events:
                 after = self._go(instance, event)
-                instance.due = after.next
+                instance.due, instance.signs = after.next, after.signs
                 history = self.number(event)
                 self._keep((parameters, event), after._replace(history=history))
                 self._keep_state(parameters, history, instance)
@@ -173,9 +174,9 @@ class Histories:
         if (known := self._afters.get(key)) is not None:
             return known
         last = self.event(event.before)
-        same = (last.time, last.inputs, last.signs) == (event.time, event.inputs, event.signs)
         instance = self.instance(parameters, event.before)
-        if same:  # it has gone through this event
+        same = (last.time, last.inputs) == (event.time, event.inputs)
+        if same and event.signs in (last.signs, instance.signs):  # it has gone through this event
             return self._keep(key, AfterEvent(event.before, instance.due, event.states, 0))
         del self._instances[parameters, event.before]
         _, history = self._through(parameters, instance, [event])
@@ -192,6 +193,6 @@ class Histories:
 
 
 def _free_all(instances: OrderedDict[Any, Instance]) -> None:
-    for instance in instances.values():
+    for instance in list(instances.values()):
         instance.free()
     instances.clear()

@@ -48,16 +48,18 @@ class Instance:
         inputs, results: what is set, and read, at each evaluation.
 
     Attributes:
-        due: its next time event; whoever leads it through events keeps it.
+        due, signs: its next time event, and which indicators were positive behind the last event; whoever leads it
+            through events keeps them.
         last: the time at which it has asked to end the simulation. Its values can still be read there.
     """
 
     due = last = float("inf")
+    signs = b""
 
     between: ClassVar[str]
     """The function that leaves event mode."""
 
-    own: ClassVar[tuple[str, ...]] = ("due", "last")
+    own: ClassVar[tuple[str, ...]] = ("due", "signs", "last")
     """Attributes that belong to its state."""
 
     def __init__(

@@ -189,7 +189,11 @@ class Evaluated(Computed):
         found = instance.happen(time)
         if found.jumped:
             instance.states(states.ctypes.data)
-        return AfterEvent(0, min(found.next, NEVER), states.tobytes(), shifts)
+        signs = b""
+        if len(wanted):
+            instance.read(values.ctypes.data)
+            signs = (values[-len(wanted) :] > 0).astype(float).tobytes()
+        return AfterEvent(0, min(found.next, NEVER), states.tobytes(), shifts, signs)
 
     # -- functions ---------------------------------------------------------------------------------
 

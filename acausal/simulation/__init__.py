@@ -27,7 +27,7 @@ from acausal.simulation.newton import (
     STAGE_STEPS as STAGE_STEPS,
     STAGE_TOLERANCE as STAGE_TOLERANCE,
 )
-from acausal.simulation.run import check_clocks as check_clocks
+from acausal.simulation.run import check_clocks as check_clocks, limits_of as limits_of
 from acausal.simulation.sampled_inputs import (
     Samples as Samples,
     polynomials_over_steps as polynomials_over_steps,

@@ -102,7 +102,7 @@ class Run(NamedTuple):
     @property
     def limits(self) -> Float[np.ndarray, " n_states"]:
         """The magnitudes beyond which states have run away."""
-        return RUN_AWAY * np.maximum(self.system.nominal, np.abs(np.asarray(self.start.x)))
+        return limits_of(self.system, self.start.x)
 
     def broken(self, x: Float[Array | np.ndarray, "n n_states"]) -> tuple[int, str] | None:
         """The first of some points at which a state is not finite or has run away, and a clause on it; or None."""
@@ -157,6 +157,13 @@ class Run(NamedTuple):
 
         reason = explain_ahead(self.system, later, at, ahead)
         return "" if reason is None else f" There {reason}"
+
+
+def limits_of(
+    system: System, start: Float[Array | np.ndarray, " n_states"]
+) -> Float[np.ndarray, " n_states"]:
+    """The magnitudes beyond which states have run away, by those at the start."""
+    return RUN_AWAY * np.maximum(system.nominal, np.abs(np.asarray(start)))
 
 
 def check_clocks(system: System, start: Values, end: float) -> None:

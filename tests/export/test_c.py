@@ -309,6 +309,22 @@ def test_the_header_names_variables_and_units(tmp_path: Path) -> None:
     assert '{"tyre.d", "N.s/m", 4, 1, 1}' in source.read_text()
 
 
+@pytest.mark.parametrize("solver", ["rk4", "implicit_euler"])
+def test_states_that_have_run_away_are_refused(tmp_path: Path, solver: str) -> None:
+    class Growing(ac.Component):
+        x, y = ac.Variable(start=1.0, fixed=True), ac.Variable(start=1.0, fixed=True)
+
+        def equations(self) -> Any:
+            yield ac.Eq(ac.der(self.x), -self.x)
+            yield ac.Eq(ac.der(self.y), 500 * self.y)
+
+    model = ExportedC(ac.compile(Growing()), tmp_path, solver=solver)
+    statuses = [model.step(1e-3) for _ in range(200)]
+    assert set(statuses[:60]) == {0}
+    assert statuses[-1] == 6
+    assert np.isfinite(model.x).all()
+
+
 def test_wrong_calls_are_refused(tmp_path: Path) -> None:
     system = ac.compile(Rectifier())
     ac.export.c(system, tmp_path)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
+
 import pytest
 
 import acausal as ac
@@ -36,3 +38,18 @@ def test_the_oldest_events_are_forgotten_and_said_to_be(monkeypatch: pytest.Monk
     for forgotten in (lambda: kept.event(15), lambda: kept.instance(b"other", 25)):
         with pytest.raises(ac.SimulationError, match="more than 10 events of an FMU since"):
             forgotten()
+
+
+def test_instances_are_freed_whatever_an_fmu_does_meanwhile() -> None:
+    freed: list[int] = []
+    instances = OrderedDict[int, object]()
+
+    class Last(Nothing):
+        def free(self) -> None:
+            freed.append(len(instances))
+            instances[9] = self  # as another thread may do
+
+    instances.update({0: Last(), 1: Last()})
+    histories._free_all(instances)  # pyright: ignore[reportPrivateUsage, reportArgumentType]
+    assert len(freed) == 2
+    assert not instances

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import blocks
+from acausal.components import blocks, translational as tl
 from acausal.fmu.derivatives import Differentiated
 from acausal.fmu.model_exchange import Exchange
 from tests.export.test_c import Chain
@@ -33,6 +33,46 @@ class Mass(ac.Component):
     def equations(self) -> Iterator[Any]:
         yield ac.Eq(ac.der(self.s), self.v)
         yield ac.Eq(self.m * ac.der(self.v), self.f - self.d * self.v - self.c * self.s**3)
+
+
+class Pulsed(ac.Component):
+    """A lag that a pulse drives whose times are known, without events."""
+
+    T = ac.Parameter(0.3)
+    x = ac.Variable(start=0.0, fixed=True)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.pulse = blocks.BooleanPulse(width=40.0, period=0.1, startTime=0.01)
+
+    def equations(self) -> Iterator[Any]:
+        push = ac.where(self.pulse.y > 0.5, 1 + ac.sin(40 * ac.time), 0.0)
+        yield ac.Eq(self.T * ac.der(self.x), push - self.x)
+
+
+class Started(Pulsed):
+    """A pulsed lag that is switched on at an event, too."""
+
+    begin = ac.Parameter(0.13)
+    on = ac.Discrete(0.0)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(self.T * ac.der(self.x), self.on + ac.where(self.pulse.y > 0.5, 1, 0) - self.x)
+        yield ac.When(ac.time > self.begin, ac.Eq(self.on, 1.0))
+
+
+class Sticking(ac.Component):
+    """A mass that a spring pulls over rough ground: it sticks and slips."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.pull, self.spring = tl.ConstantSpeed(v_fixed=0.1), tl.Spring(c=50.0)
+        rest = ac.Start(0.0, fixed=True)
+        self.mass = tl.Mass(m=1.0, s=rest, v=rest)
+        self.ground = tl.SupportFriction(f_pos=[[0.0, 4.0]], peak=1.5)
+        self.connect(self.pull.flange, self.spring.flange_a)
+        self.connect(self.spring.flange_b, self.mass.flange_a)
+        self.connect(self.mass.flange_b, self.ground.flange_a)
 
 
 class Driven(ac.Component):
@@ -187,7 +227,7 @@ def test_starts_of_states_are_guesses_that_x0_and_rest_replace(exported: Exporte
 @pytest.mark.slow
 @pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
-    ("model", "end", "name"), [(Ball, 1.4, "h"), (Thermostat, 12.0, "T"), (Sampled, 1.0, None)]
+    ("model", "end", "name"), [(Ball, 2.4, "h"), (Thermostat, 12.0, "T"), (Sampled, 1.0, None)]
 )
 def test_events_are_those_of_the_model(
     exported: Exported, model: type[ac.Component], end: float, name: str | None
@@ -212,6 +252,39 @@ def test_gradients_go_through_events(exported: Exported) -> None:
 
     found, expected = (jax.grad(lambda e, s=s: loss(s, e))(0.8) for s in (system, native))
     np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+@pytest.mark.cases(fast=1)
+@pytest.mark.parametrize("model", [Pulsed, Started])
+def test_gradients_move_events_whose_time_is_known(
+    exported: Exported, model: type[ac.Component]
+) -> None:
+    at = {"pulse.startTime": 0.01, "pulse.period": 0.1, "pulse.width": 40.0}
+    expected, waves = dict.fromkeys(at, 0.0), 40.0 if model is Pulsed else 0.0
+    for share in (0, 0.4, 1, 1.4):  # of edges, in periods; one up that comes later leaves less
+        edge = 0.01 + 0.1 * share
+        left = (1 + np.sin(waves * edge)) / 0.3 * np.exp(-(0.2 - edge) / 0.3)
+        left *= 1 if share % 1 else -1
+        expected["pulse.startTime"] += left
+        expected["pulse.period"] += left * share
+        expected["pulse.width"] += left * 0.1 / 100 if share % 1 else 0
+    if model is Started:
+        at["begin"], expected["begin"] = 0.13, -np.exp(-(0.2 - 0.13) / 0.3) / 0.3
+    system = ac.compile(ac.FMU(exported(model)))
+    found = jax.grad(lambda p: ac.simulate(system, 0.2, dt=0.01, params=p)["x"][-1])(at)
+    for name, slope in expected.items():
+        np.testing.assert_allclose(found[name], slope, rtol=2e-5, err_msg=name)
+
+
+@pytest.mark.cases(fast=1)
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
+def test_indicators_whose_meaning_changes_with_the_mode_are_no_further_events(
+    exported: Exported, fmi: str
+) -> None:
+    native, system = ac.compile(Sticking()), ac.compile(ac.FMU(exported(Sticking, fmi)))
+    expected, found = (ac.simulate(s, 2.0, rtol=1e-8, atol=1e-10) for s in (native, system))
+    np.testing.assert_allclose(found["mass.s"][-1], expected["mass.s"][-1], atol=1e-9)
+    assert len(found.events) <= len(expected.events) + 1
 
 
 def test_instances_go_back_to_states_that_they_had(

@@ -1,7 +1,7 @@
 void model_init(Model *m) {
     m->time = 0;
 #if EDGES
-    m->since = m->until = INFINITY;
+    m->since = -INFINITY, m->until = INFINITY;
 #endif
     fill_p(m->p);
     fill_x(m->x);

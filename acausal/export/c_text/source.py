@@ -112,6 +112,7 @@ def _function(
 def _steps(text: ModelText) -> Iterator[str]:
     """The step of a model, which may be divided at events or at edges."""
     found, name = text.code.events, text.name
+    yield from _limits(text)
     if found is not None:
         limits = "FLT" if text.precision == "float" else "DBL"
         yield from (f"#define TINY {limits}_MIN", f"#define ROUNDING {limits}_EPSILON")
@@ -132,6 +133,18 @@ def _steps(text: ModelText) -> Iterator[str]:
     if text.has_edges:
         yield ""
         yield from c_file("pieces.c", name)
+
+
+def _limits(text: ModelText) -> Iterator[str]:
+    """Whether states are finite, and have not run away."""
+    limits, limit = text.limits, "limits[i]"
+    if limits.size and (limits != limits[0]).any():
+        yield from _table("limits", limits, "real")
+    else:
+        limit = literal(float(limits[0]) if limits.size else 0.0, "real")
+    yield f"#define LIMIT(i) {limit}"
+    yield from c_file("limits.c", text.name)
+    yield ""
 
 
 def _implicit(text: ModelText) -> Iterator[str]:

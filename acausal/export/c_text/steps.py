@@ -37,7 +37,7 @@ def step_lines(scheme: Tableau, name: str) -> Iterator[str]:
     yield f"    for (int i = 0; i < STATES; i++) m->x[i] += {_combination(scheme.weights)[3:]};"
     yield "    for (int i = 0; i < INPUTS; i++) m->u[i] = end[i];"
     yield "    m->time = t + h;"
-    yield f"    return all_finite(m->x, STATES) ? {name.upper()}_OK : {name.upper()}_NOT_FINITE;"
+    yield "    return within_limits(m, m->x);"
 
 
 def attempt_lines(scheme: Tableau, name: str) -> Iterator[str]:
@@ -54,7 +54,7 @@ def attempt_lines(scheme: Tableau, name: str) -> Iterator[str]:
     yield f"    for (int i = 0; i < STATES; i++) m->e.x_end[i] = m->x[i]{_combination(scheme.weights)};"
     yield "    rates(m, SIDED(t), m->x, begin, m->e.dx_begin);"
     yield "    rates(m, SIDED(t + h), m->e.x_end, end, m->e.dx_end);"
-    yield f"    return all_finite(m->e.x_end, STATES) ? {name.upper()}_OK : {name.upper()}_NOT_FINITE;"
+    yield "    return within_limits(m, m->e.x_end);"
 
 
 def _stages(scheme: Tableau, name: str) -> Iterator[str]:

@@ -25,7 +25,7 @@ class ModelText:
         name: of the functions and the struct. title: of the model. precision: "double" or "float".
         code: its functions. solver: of the steps. scheme: its coefficients. vector: its parameters.
         states, inputs, outputs, parameters: names in groups, with units.
-        start: states at the start, shape (n_states,).
+        start: states at the start, shape (n_states,). limits: magnitudes beyond which they have run away.
         discrete: names of discrete variables, the conditions first. discrete_start: their values before the start.
     """
 
@@ -41,6 +41,7 @@ class ModelText:
     outputs: Sequence[tuple[NameRange, str]]
     parameters: Sequence[tuple[NameRange, str]]
     start: np.ndarray
+    limits: np.ndarray
     discrete: Sequence[str] = ()
     discrete_start: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0))
 

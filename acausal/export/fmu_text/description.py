@@ -86,7 +86,7 @@ class ModelDescription:
                  "providesAdjointDerivatives"), "true",
             )  # fmt: skip
         watches = any(v.kind == OUTSIDE for v in self.variables)
-        if kind == "model_exchange" and (self.indicators or watches) and not old:
+        if kind == "model_exchange" and watches and not old:
             found["needsCompletedIntegratorStep"] = "true"
         if kind == "co_simulation":
             found["canHandleVariableCommunicationStepSize"] = "true"

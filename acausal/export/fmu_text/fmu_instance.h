@@ -6,6 +6,7 @@
 
 #include "fmu_model.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -110,10 +111,8 @@ static long length(double *const bases[KINDS], const unsigned references[], size
     return sum;
 }
 
-/* The name of the first value that is not finite. */
-static void name_of_first(const double values[], int size, unsigned kind, char name[], size_t room) {
-    int place = 0;
-    while (place < size - 1 && isfinite(values[place])) place++;
+/* The name of a value. */
+static void name_of(int place, unsigned kind, char name[], size_t room) {
     for (unsigned g = 0; g < GROUPS[kind]; g++) {
         const Variable *v = TABLES[kind] + g;
         const int from = place - v->first;
@@ -137,12 +136,29 @@ static void calibrate(Instance *c) {
 
 static void moved(Instance *c) { c->now.has_dx = c->now.has_y = 0; }
 
+#if EDGES
+static void on_any_side(Model *m) { m->since = -INFINITY, m->until = INFINITY; }
+
+/* What jumps at known times changes at events only: m->time moves to between the last one and the next. Returns it. */
+static double between_events(Model *m) {
+    const double apart = 32 * DBL_EPSILON, time = m->time;
+    const double from = m->since + apart * fabs(m->since), to = m->until - apart * fabs(m->until);
+    if (isfinite(m->since) && time < from) m->time = from;
+    if (isfinite(m->until) && time > to) m->time = to;
+    return time;
+}
+#else
+static void on_any_side(Model *m) { (void)m; }
+static double between_events(Model *m) { return m->time; }
+#endif
+
 static const char *const REASONS[] = {"",
                                       "a state is no finite number",
                                       "an implicit step has no unique solution",
                                       "Newton's method found no solution of an implicit step",
                                       "at an event discrete variables change each other without end",
-                                      "events follow each other without end"};
+                                      "events follow each other without end",
+                                      "a state has run away"};
 
 #if EVENTS
 static int after_event(Instance *c, int status) {
@@ -184,7 +200,10 @@ static int update(Instance *c, int *changed, int *has_next, double *next) {
 
 static int find_indicators(Instance *c) {
     calibrate(c);
-    if (model_conditions(&c->now.m))
+    const double time = between_events(&c->now.m);
+    const int failed = model_conditions(&c->now.m) != 0;
+    c->now.m.time = time;
+    if (failed)
         return complain(c, DISCARD, TITLE ": a condition is no finite number at t = %.9g s.", c->now.m.time);
     for (int i = 0; i < N_INDICATORS; i++) {
         const int k = indicators[i];
@@ -196,7 +215,9 @@ static int find_indicators(Instance *c) {
 
 static void completed(Instance *c) {
     calibrate(c);
+    const double time = between_events(&c->now.m);
     model_completed(&c->now.m);
+    c->now.m.time = time;
 }
 #else
 /* Start values that follow from parameters and inputs; those that the importer has set stay. */
@@ -246,6 +267,22 @@ static int get_indicators(Instance *c, double values[], size_t size) {
     return status;
 }
 
+static void forget_seeds(Instance *c) {
+    c->seed_time = 0;
+    memset(c->seed_x, 0, sizeof c->seed_x);
+    memset(c->seed_u, 0, sizeof c->seed_u);
+    memset(c->seed_p, 0, sizeof c->seed_p);
+}
+
+static int along_seeds(Instance *c) {
+    Model *m = &c->now.m;
+    const double time = between_events(m);
+    const int failed = model_directional(m, c->seed_time, c->seed_x, c->seed_u, c->seed_p, c->of_dx, c->of_y) != 0;
+    m->time = time;
+    if (!failed) return OK;
+    return complain(c, DISCARD, TITLE ": a directional derivative is no finite number at t = %.9g s.", time);
+}
+
 /* Derivatives or outputs at the present point. */
 static int evaluate(Instance *c, unsigned kind) {
     State *now = &c->now;
@@ -256,13 +293,23 @@ static int evaluate(Instance *c, unsigned kind) {
     if (kind != DERIVATIVES && kind != OUTPUTS) return OK;
     if (*has) return OK;
     calibrate(c);
-    if ((kind == DERIVATIVES ? model_derivatives(&now->m) : model_outputs(&now->m)) != 0) {
+    const double time = between_events(&now->m), past = time - now->m.time;
+    const int failed = (kind == DERIVATIVES ? model_derivatives(&now->m) : model_outputs(&now->m)) != 0;
+    now->m.time = time;
+    if (failed) {
         char name[200];
-        if (kind == DERIVATIVES)
-            name_of_first(now->m.dx, N_STATES, kind, name, sizeof name);
-        else
-            name_of_first(now->m.y, N_OUTPUTS, kind, name, sizeof name);
-        return complain(c, DISCARD, TITLE ": '%s' is no finite number at t = %.9g s.", name, now->m.time);
+        const double *values = kind == DERIVATIVES ? now->m.dx : now->m.y;
+        int place = 0;
+        while (isfinite(values[place])) place++;
+        name_of(place, kind, name, sizeof name);
+        return complain(c, DISCARD, TITLE ": '%s' is no finite number at t = %.9g s.", name, time);
+    }
+    if (past != 0) { /* it goes on as a line: instances whose events come a little later are compared */
+        forget_seeds(c);
+        c->seed_time = past;
+        if ((status = along_seeds(c)) != OK) return status;
+        for (int i = 0; kind == DERIVATIVES && i < N_STATES; i++) now->m.dx[i] += c->of_dx[i];
+        for (int i = 0; kind == OUTPUTS && i < N_OUTPUTS; i++) now->m.y[i] += c->of_y[i];
     }
     *has = 1;
     return OK;
@@ -358,18 +405,6 @@ static int nominals(Instance *c, double values[], size_t size) {
 
 /* -- derivatives of derivatives ------------------------------------------------------------------- */
 
-static void forget_seeds(Instance *c) {
-    c->seed_time = 0;
-    memset(c->seed_x, 0, sizeof c->seed_x);
-    memset(c->seed_u, 0, sizeof c->seed_u);
-    memset(c->seed_p, 0, sizeof c->seed_p);
-}
-
-static int along_seeds(Instance *c) {
-    if (model_directional(&c->now.m, c->seed_time, c->seed_x, c->seed_u, c->seed_p, c->of_dx, c->of_y) == 0) return OK;
-    return complain(c, DISCARD, TITLE ": a directional derivative is no finite number at t = %.9g s.", c->now.m.time);
-}
-
 static int directional(Instance *c, const unsigned unknowns[], size_t n_unknowns, const unsigned knowns[],
                        size_t n_knowns, const double seed[], size_t n_seed, double result[], size_t n_result) {
     double *const seeds[KINDS] = {&c->seed_time, c->seed_p, c->seed_u, c->seed_x, NULL, NULL};
@@ -441,13 +476,14 @@ static int advance(Instance *c, double from, double h) {
         memcpy(c->d_before, m->d, sizeof c->d_before);
 #endif
         const int status = (int)model_step(m, h / (double)n, NULL);
+        on_any_side(m);
         if (status) {
             char name[200] = "";
-            if (status == 1) name_of_first(m->x, N_STATES, STATES, name, sizeof name);
+            if (status == 1 || status == 6) name_of(m->broken, STATES, name, sizeof name);
             memcpy(m->x, c->before, sizeof c->before);
             m->time = c->reached;
-            return complain(c, DISCARD, TITLE ": %s after t = %.9g s%s%s; a smaller step may help.", REASONS[status],
-                            c->reached, *name ? ": " : "", name);
+            return complain(c, status == 6 ? FAILED : DISCARD, TITLE ": %s after t = %.9g s%s%s; a smaller step may help.",
+                            REASONS[status], c->reached, *name ? ": " : "", name);
         }
         m->time = c->reached = i == n - 1 ? from + h : from + h * (double)(i + 1) / (double)n;
 #if EVENTS

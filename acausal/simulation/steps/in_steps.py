@@ -151,8 +151,11 @@ def _stopped(
     if why == NOT_CONVERGED and events is not None:
         places = non_converged(events, at)
         circle = listing(map(run.system.describe_discrete, places), 6) or "conditions"
+        advice = "Break the circle by pre(...)."
+        if "fmu." in circle:
+            advice = "An FMU is part of this circle: delay a signal to it, or use it by co-simulation, kind='cs'."
         return SimulationError(
-            f"{where}: at an event {circle} change each other without end{last}. Break the circle by pre(...)."
+            f"{where}: at an event {circle} change each other without end{last}. {advice}"
         )
     if why == CHATTERS:
         return SimulationError(
