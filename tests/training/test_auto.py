@@ -332,10 +332,11 @@ def test_problems_without_options(name: str) -> None:
     fit = by_default(problem, noisy["run 0"])
     assert fit.loss < 1.15 * NOISE
     assert fresh_error(problem, fit) < 3 * NOISE
-    # A cycle hardly has a linear part, and few samples are in the tail of an exponential law.
+    # A cycle hardly has a linear part, and few samples are in the tail of an exponential law: the fit says so.
     assert law_error(problem, fit) < (0.1 if name in ("limit cycle", SHORT[1]) else 0.05)
     assert fit.verdict is not None
-    assert fit.verdict.good
+    assert fit.verdict.good == (name != SHORT[1])
+    assert ("where it is steep" in repr(fit)) == (name == SHORT[1])
 
 
 @pytest.mark.slow
