@@ -161,8 +161,7 @@ def rates_behind(problem: Integration, t: Array, x: Array, d: Array) -> Float[Ar
     behind = problem.held(d)
     if problem.field.has_edges:
         behind = behind.sided(t, jnp.full_like(t, jnp.inf))
-    field, t, x = lax.stop_gradient((without_derivatives(behind).field, t, x))
-    rates = field(t, x)
+    rates = without_derivatives(behind).field(*lax.stop_gradient((t, x)))
     return jnp.where(jnp.isfinite(rates), rates, 0.0)
 
 
