@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from acausal.errors import DeclarationError
+from acausal.networks.activations import SMOOTH, SMOOTH_AND_CONVEX, checked
 from acausal.networks.energy_parts import Bowl, FromRest, Levelled, WithMinCurvature
 from acausal.networks.extrapolation import ContinuedEnergy
 from acausal.networks.law_parts import Even, start_at
-from acausal.networks.mlp import MLP, SMOOTH, SMOOTH_AND_CONVEX, Key, checked
+from acausal.networks.mlp import MLP, Key
 from acausal.networks.monotone_and_convex import Convex
 from acausal.networks.scaled import EnergyLaw
 from acausal.networks.spec import Layers, Net, NetworkSpec

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from acausal.errors import DeclarationError
+from acausal.networks.activations import INCREASING, checked
 from acausal.networks.extrapolation import Continued
 from acausal.networks.law_parts import (
     Even,
@@ -17,7 +18,7 @@ from acausal.networks.law_parts import (
     WithMinSlope,
     start_at,
 )
-from acausal.networks.mlp import INCREASING, MLP, Key, checked
+from acausal.networks.mlp import MLP, Key
 from acausal.networks.monotone_and_convex import Monotone
 from acausal.networks.scaled import Scaled
 from acausal.networks.spec import Layers, Net, NetworkSpec, ZeroCrossing

@@ -1,4 +1,4 @@
-"""The plain network: a multilayer perceptron from scalars to a scalar; activations, and checks of inputs and sizes."""
+"""The plain network: a multilayer perceptron from scalars to a scalar; and checks of inputs and sizes."""
 
 from __future__ import annotations
 
@@ -13,45 +13,9 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal._jax import as_key, is_number, is_real, traced
-from acausal.errors import DeclarationError, nearest, need_whole, shown
+from acausal.errors import DeclarationError, need_whole, shown
 from acausal.modeling import charge
-
-ACTIVATIONS: dict[str, Callable[[Array], Array]] = {
-    "relu": jax.nn.relu,
-    "tanh": jnp.tanh,
-    "softplus": jax.nn.softplus,
-    "silu": jax.nn.silu,
-    "gelu": jax.nn.gelu,
-    "elu": jax.nn.elu,
-    "sin": jnp.sin,
-    "identity": lambda x: x,
-}
-"""Activations by name."""
-
-INCREASING = ("relu", "tanh", "softplus", "elu", "identity")
-"""Those that never decrease, for monotone networks."""
-
-SMOOTH = ("tanh", "softplus", "silu", "gelu", "elu", "sin")
-"""Those with a continuous derivative, so that a force that is the derivative of an energy has no jumps."""
-
-SMOOTH_AND_CONVEX = ("softplus", "elu")
-"""Those that are also convex, for convex energies."""
-
-
-def checked(name: str, allowed: tuple[str, ...] = tuple(ACTIVATIONS), use: str = "") -> str:
-    """The name of an activation, if it is one of those allowed.
-
-    Raises:
-        DeclarationError: if it is not; ``use`` names the network in the message.
-    """
-    if not isinstance(name, str) or name not in ACTIVATIONS:
-        raise DeclarationError(f"no activation {shown(name)}: {nearest(name, ACTIVATIONS)}")
-    if name not in allowed:
-        raise DeclarationError(
-            f"activation '{name}' does not suit {use}; choose one of {', '.join(allowed)}"
-        )
-    return name
-
+from acausal.networks.activations import ACTIVATIONS, checked
 
 LARGEST = 10_000
 """Neurons in a layer, or layers: more are a mistake, and fill the memory."""

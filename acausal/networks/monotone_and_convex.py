@@ -13,18 +13,8 @@ from jaxtyping import Array, Float
 
 from acausal._jax import as_key
 from acausal.errors import DeclarationError
-from acausal.networks.mlp import (
-    ACTIVATIONS,
-    INCREASING,
-    SMOOTH_AND_CONVEX,
-    SPREAD,
-    Key,
-    Layered,
-    Product,
-    checked,
-    layers,
-    uniform,
-)
+from acausal.networks.activations import ACTIVATIONS, INCREASING, SMOOTH_AND_CONVEX, checked
+from acausal.networks.mlp import SPREAD, Key, Layered, Product, layers, uniform
 
 
 class Secondary(eqx.Module):
