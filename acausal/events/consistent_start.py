@@ -128,7 +128,7 @@ def start_of(
     at = start._replace(x=x, d=d)
     after = _fire_at_start(events, at, traced(at))
     if (converged := known(after.converged)) is not None and not bool(converged):
-        circle = listing(map(describe, non_converged(events, start._replace(x=x, d=d))), 6)
+        circle = listing(map(describe, non_converged(events, at)), 6)
         raise InitializationError(
             f"At the start no discrete variables agree with the initial values: {circle or 'conditions'} change each "
             "other without end; break the circle by pre(...), or give other starts."

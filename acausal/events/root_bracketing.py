@@ -121,9 +121,8 @@ def look(
     narrow = (gone_on.high - gone_on.low <= width) | (gone_on.tries >= TRIES)
     # A number may be zero long before it changes; and it may jump: before it does, nothing has changed.
     close = (jnp.abs(off[-1]) <= CLOSE) & (off[-1] != 0) & bracketing.away
-    tried = (
-        h >= bracketing.high
-    )  # a change that the longer step has shown may not be there in a shorter one
+    # A change that a longer step has shown may not be there in a shorter one.
+    tried = h >= bracketing.high
     there = close | (narrow & ((off[-1] > 0) | tried)) | (gone_on.tries >= TRIES + 2)
     gone_on = gone_on._replace(h=jnp.where(narrow, gone_on.high, gone_on.h))
     is_event = bracketing.active & there

@@ -5,5 +5,5 @@ It knows declarations, units and JAX; nothing of flattening, structure or simula
 code.
 """
 
-from acausal.fmu.component import FMU as FMU
+from acausal.fmu.component import FMU as FMU, HISTORY as HISTORY
 from acausal.fmu.description import Description as Description, FMUVariable as FMUVariable

@@ -115,9 +115,8 @@ class Multistep(eqx.Module):
         back = jnp.arange(POINTS)
         states = x - (h * back)[:, None].astype(x.dtype) * lax.stop_gradient(f)
         zero, one = jnp.zeros((), jnp.int32), jnp.ones((), jnp.int32)
-        entries = jnp.zeros(
-            self.jacobian.n_entries, x.dtype
-        )  # factors of the identity, to be renewed
+        # factors of the identity, to be renewed
+        entries = jnp.zeros(self.jacobian.n_entries, x.dtype)
         matrix = self.jacobian.iteration_matrix.factorize(entries, jnp.zeros((), x.dtype))
         memory = MultistepMemory(
             h,

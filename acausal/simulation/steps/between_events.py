@@ -219,10 +219,8 @@ def land(
 
 
 def begun_again(method: Any, problem: Integration, landing: Landing) -> tuple[Any, Counts]:
-    """What a method knows where it begins again, and what that cost; an edge is seen from its other side."""
-    if problem.field.has_edges:
-        problem = problem.sided(landing.t, jnp.full_like(landing.t, jnp.inf))
-    memory, cost = method.begin(problem, landing.t, landing.x)
+    """What a method knows where it begins again, and what that cost."""
+    memory, cost = method.begin(problem.behind(landing.t), landing.t, landing.x)
     return method.resumed(memory, landing.memory), cost
 
 

@@ -86,7 +86,7 @@ class InSteps:
             SimulationError: if the end is not reached.
         """
         posed = self._posed(run)
-        solved = solve(posed, run.system.state_jacobian)
+        solved = solve(posed)
         found, c = solved.found, solved.found.counts
         x, saved_d = found.saved
         if (why := known(found.why)) is not None and not traced(x):
@@ -133,8 +133,7 @@ class InSteps:
         if d is not None:
             room = FEW_VALUES if traced(problem, d) else VALUES
             log = Log.empty(len(problem.x) + len(d), self.dtype, values=room)
-        jacobian = run.system.state_jacobian
-        return first_run(problem, method, jacobian, d=d, log=log, forward=self.forward)
+        return first_run(problem, method, d=d, log=log, forward=self.forward)
 
 
 def _stopped(
@@ -152,7 +151,9 @@ def _stopped(
         places = non_converged(events, at)
         circle = listing(map(run.system.describe_discrete, places), 6) or "conditions"
         advice = "Break the circle by pre(...)."
-        if "fmu." in circle:
+        from acausal.fmu import HISTORY  # nothing else of a simulation needs the room
+
+        if HISTORY in circle:
             advice = "An FMU is part of this circle: delay a signal to it, or use it by co-simulation, kind='cs'."
         return SimulationError(
             f"{where}: at an event {circle} change each other without end{last}. {advice}"

@@ -158,10 +158,8 @@ def rates_behind(problem: Integration, t: Array, x: Array, d: Array) -> Float[Ar
 
     An event at the end of a run moves: up to the end itself, the state goes on with these rates.
     """
-    behind = problem.held(d)
-    if problem.field.has_edges:
-        behind = behind.sided(t, jnp.full_like(t, jnp.inf))
-    rates = without_derivatives(behind).field(*lax.stop_gradient((t, x)))
+    behind = without_derivatives(problem.held(d).behind(t))
+    rates = behind.field(*lax.stop_gradient((t, x)))
     return jnp.where(jnp.isfinite(rates), rates, 0.0)
 
 

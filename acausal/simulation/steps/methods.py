@@ -32,19 +32,19 @@ def explicit() -> Explicit:
     return Explicit(dfx.Tsit5())
 
 
-def stiff(problem: Integration, jacobian: StateJacobian) -> Method:
+def stiff(problem: Integration) -> Method:
     """The method for stiff models; with events, which end all that a multistep method knows, a one-step method."""
     solver = solvers.solver_named("stiff", events=problem.events is not None)
-    return method_of(solver, problem, jacobian)
+    return method_of(solver, problem)
 
 
-def method_of(solver: solvers.Solver, problem: Integration, jacobian: StateJacobian) -> Method:
+def method_of(solver: solvers.Solver, problem: Integration) -> Method:
     """The method by which a solver's steps are made.
 
     Raises:
         SimulationError: for a solver without an error estimate.
     """
-    solver = solvers.for_adaptive_steps(solver)
+    solver, jacobian = solvers.for_adaptive_steps(solver), problem.field.system.state_jacobian
     if isinstance(solver, solvers.BDF):
         return Multistep(jacobian)
     if isinstance(solver, dfx.AbstractRungeKutta | dfx.ImplicitEuler):

@@ -199,10 +199,7 @@ def integrate_in_steps(
         max_tries=None if tries is None else tries * n * parts + FEWEST,
     )
     log = None if d0 is None else Log.empty(len(start.x) + len(d0), dtype, values=0)
-    jacobian = system.state_jacobian
-    found = solve(
-        first_run(problem, method, jacobian, d=d0, log=log, forward=direct), jacobian
-    ).found
+    found = solve(first_run(problem, method, d=d0, log=log, forward=direct)).found
     x, d = found.saved
     if restarts is not None:
         x = jnp.where(restarts.begins[:, None], restarts.first, x)

@@ -162,6 +162,10 @@ class Integration(eqx.Module):
         sided = Sided(f, low, high, system=f.system, d=f.d, until=f.until)
         return eqx.tree_at(lambda p: p.field, self, sided)
 
+    def behind(self, t: Float[Array, ""]) -> Integration:
+        """The problem behind a time at which something has happened: an edge there is seen from its other side."""
+        return self.sided(t, jnp.full_like(t, jnp.inf)) if self.field.has_edges else self
+
     @property
     def tolerances(self) -> Tolerances:
         """Of a step."""

@@ -145,10 +145,8 @@ def _back(
         left = (jnp.arange(len(problem.ts)) >= saved_behind)[:, None]
         at_end = (jnp.sum(jnp.where(left, a, 0), axis=0) for a in to.saved)
         to_x, to_d = (a + b for a, b in zip((to.x, to.d), at_end, strict=True))
-        rest = rates_behind(problem, end_t, *end) @ to_x
-        rest = jnp.where(
-            reached, rest, 0.0
-        )  # of the state, by the time from the last event to the end
+        # of the state at the end, with respect to the time from the last event to there
+        rest = jnp.where(reached, rates_behind(problem, end_t, *end) @ to_x, 0.0)
         totals = jax.vjp(lambda some: of_moved(some)[1].end, own)[1](rest)[0]
         last = Adjoint(to.t - rest, to_x, to_d, totals)
 

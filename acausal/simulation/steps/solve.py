@@ -11,7 +11,6 @@ import numpy as np
 from jaxtyping import Array, Float, PyTree
 
 from acausal._jax import array, compile_ahead, compiled, known, two_modes
-from acausal.codegen import StateJacobian
 from acausal.errors import SimulationError
 from acausal.simulation.log import Log
 from acausal.simulation.solvers import Solver
@@ -43,7 +42,6 @@ class FirstRun(NamedTuple):
 def first_run(
     problem: Integration,
     solver: Solver | OneStep | None,
-    jacobian: StateJacobian,
     *,
     d: Float[Array, " n_discrete"] | None = None,
     log: Log | None = None,
@@ -55,7 +53,6 @@ def first_run(
         problem: what is integrated.
         solver: one with an error estimate, or a method; ``None``: Tsit5, and a stiff method from where the model is
             stiff.
-        jacobian: the model's, for implicit steps.
         d: discrete variables at the start. log: the empty log of the run. Both None without events.
         forward: allow derivatives in forward mode only, of any order.
 
@@ -65,7 +62,7 @@ def first_run(
     start = LoopStart(problem.begin, problem.x, array(0, int), d, log)
     if solver is None:
         return FirstRun(explicit(), problem, start, True, forward)
-    method = solver if isinstance(solver, OneStep) else method_of(solver, problem, jacobian)
+    method = solver if isinstance(solver, OneStep) else method_of(solver, problem)
     if problem.events is not None and not isinstance(method, OneStep):
         raise SimulationError(
             f"solver {method.name} goes on from steps before an event, which ends them all; choose 'auto', or "
@@ -79,15 +76,15 @@ def begin_to_compile(first: FirstRun) -> None:
     compile_ahead(_run, *first)
 
 
-def solve(first: FirstRun, jacobian: StateJacobian) -> Solved:
-    """Solve a problem, with the first run posed and the model's Jacobian for implicit steps."""
+def solve(first: FirstRun) -> Solved:
+    """Solve a problem, by the first run and by what follows from it."""
     found, name = _run(*first), first.method.name
     if not first.until_stiff:
         return Solved(found, name, array(np.nan))
     why = known(found.why)
     if why is not None and int(why) not in (STIFF, EXHAUSTED):
         return Solved(found, name, array(np.inf, found.t.dtype))
-    return _goes_on(first, found, stiff(first.problem, jacobian))
+    return _goes_on(first, found, stiff(first.problem))
 
 
 def _goes_on(run: FirstRun, first: LoopResult, second: Method) -> Solved:
