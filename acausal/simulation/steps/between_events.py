@@ -10,7 +10,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import cond_any, without_derivatives
-from acausal.events import COINCIDE, POINTS, Bracketing, Events, due, guards, look, no_bracketing
+from acausal.events import COINCIDE, POINTS, Bracketing, Events, guards, look, no_bracketing
 from acausal.simulation.log import Log
 from acausal.simulation.steps.one_step import Memory
 from acausal.simulation.steps.problem import Attempt, Counts, Integration
@@ -116,8 +116,9 @@ def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
     band = -jnp.ones(events.n_guards, x.dtype)
     if not events.timed.any():
         return stop._replace(band=band)
-    apart = COINCIDE * jnp.maximum(jnp.abs(t), span)
-    known = lax.stop_gradient(due(events, held.field.at(t).values(x)))
+    largest = jnp.maximum(jnp.abs(t), jnp.abs(t + held.field.shift(t)))
+    apart = COINCIDE * jnp.maximum(largest, span)
+    known = lax.stop_gradient(held.field.due(events, t, x))
     times = jnp.where(known.t > t + apart, known.t, jnp.inf)
     j = jnp.argmin(times)
     first = times[j] <= stop.t + apart

@@ -85,14 +85,18 @@ class Clock(RightHandSide):
 
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """The next of these times, by the clock; within a row, as another run may begin behind it."""
-        row = self._row(t + apart)
-        shift = self.steps.t[row] - self.edges[row]
+        row, shift = self._row(t + apart), self.shift(t + apart)
         found = self.system.edges.ahead(self._packed(row), t + shift, apart, self.d)
         jump = found.jump - shift
         if self.steps.parts is not None:
             cuts = self.edges[row] + self.steps.parts.cuts[row] * self._length(row)
             jump = jnp.minimum(jump, jnp.min(jnp.where(cuts > t + apart, cuts, jnp.inf)))
         return Ahead(jump, found.bend - shift, found.longest)
+
+    def shift(self, t: Array) -> Array:
+        """The time of the records less that of the clock."""
+        row = self._row(t)
+        return self.steps.t[row] - self.edges[row]
 
     def _row(self, t: Array) -> Array:
         """In which row a time lies."""
