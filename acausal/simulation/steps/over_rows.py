@@ -147,7 +147,8 @@ def integrate_in_steps(
     """Integrate the model over some rows. Pure: trace, differentiate and map it.
 
     Arguments:
-        system, start, substeps, outputs, direct, runs: as for `fixed_steps.integrate`.
+        system, start, substeps, outputs, direct, runs: as for `fixed_steps.integrate`. Discrete variables begin as
+            ``start`` says, else as agrees with the states.
         steps: the n rows and their inputs; steps end at each where the model has inputs, or events.
         solver: adaptive steps; or, for a model with events, a scheme of fixed ones.
         tries: so many steps of given length that a row takes on average at most, those that only search for the instant
@@ -157,7 +158,9 @@ def integrate_in_steps(
         States and outputs at the rows' starts, and the state at the end; NaN from where a step cannot be made.
     """
     events, dtype = system.events, start.x.dtype
-    d0 = None if events is None else system.modes(start).d
+    d0 = None
+    if events is not None:
+        d0 = system.modes(start).d if start.d is None else start.d
     clock = Clock.of(system, start.packed, steps, runs).with_discrete(d0)
     edges, n = clock.edges, len(steps.t)
     restarts = None if runs is None else runs.restarts
@@ -209,12 +212,12 @@ def integrate_in_steps(
         x = jnp.where(restarts.begins[:, None], restarts.first, x)
     end = jnp.where(found.why == REACHED, found.x, jnp.nan)
     if not outputs:
-        return Integrated(x, None, end, found.log)
+        return Integrated(x, None, end, found.log, found.d)
 
     def read(at: Array, x: Array, d: Array | None) -> Array:
         return system.read(tuple(outputs), clock.with_discrete(d).at(at).values(x))
 
-    return Integrated(x, jax.vmap(read)(edges[:-1], x, d), end, found.log)
+    return Integrated(x, jax.vmap(read)(edges[:-1], x, d), end, found.log, found.d)
 
 
 def _divided(edges: Float[Array, " n_1"], substeps: int) -> Float[Array, " n_breaks"]:
