@@ -174,7 +174,7 @@ class Estimation(Solution):
         if traced(self.t):
             return f"Estimation({len(self.names)} variables)"
         states = (*self.system.states, *self.parameters)
-        last = np.sqrt(np.diagonal(np.asarray(self.covariance[-1])))
+        last = np.sqrt(np.diagonal(np.asarray(self.covariance[-1])))[: len(states)]
         now = [*np.asarray(self.x[-1]), *(float(v[-1]) for v in self.parameters.values())]
         kind = "smoothed" if self.filtered is None else "filtered"
         span = f"{self.t.shape[0]} points from {float(self.t[0]):g} to {float(self.t[-1]):g} s"

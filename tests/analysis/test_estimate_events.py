@@ -60,6 +60,7 @@ def test_what_a_controller_has_sampled_is_estimated_as_a_state_is():
     np.testing.assert_allclose(found.deviation(["x", "u"])[:, 0], np.sqrt(P[:, 0, 0]), atol=1e-6)
     np.testing.assert_allclose(found.deviation("u"), np.sqrt(P[:, 1, 1]), atol=2e-6)
     assert float(found.log_likelihood) == pytest.approx(float(likelihood), abs=1e-3)
+    assert "  x " in repr(found)
     np.testing.assert_allclose(found.smooth()["x"], late[:, 0], atol=2e-6)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import starmap
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -152,9 +153,18 @@ class Confidence:
         return bad
 
     def __repr__(self) -> str:
-        return "\n".join(
-            ("Confidence of " + ", ".join((*self.laws, *self.parameters)), *self.summary())
-        )
+        head = "Confidence of " + ", ".join((*self.laws, *self.parameters))
+        return "\n".join((head, *starmap(_law_known, self.laws.items()), *self.summary()))
+
+
+def _law_known(name: str, band: Band) -> str:
+    """How well a law is known, in a sentence."""
+    doubt = 200 * band.sigma / (np.ptp(band.law) or 1.0)
+    worst = int(np.argmax(doubt))
+    return (
+        f"'{name}' is known to {np.median(doubt):.2g} % of its range, at worst to {doubt[worst]:.2g} % near "
+        f"{band.x[worst]:.2g} (two sigma)."
+    )
 
 
 def _digits(correlation: float) -> str:
