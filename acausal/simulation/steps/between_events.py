@@ -122,7 +122,12 @@ def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
     largest = jnp.maximum(jnp.abs(t), jnp.abs(t + held.field.shift(t)))
     apart = COINCIDE * jnp.maximum(largest, span)
     known = lax.stop_gradient(held.field.due(events, t, x))
-    times = jnp.where(known.t > t + apart, known.t, jnp.inf)
+    # one that is due so soon that it counts as now has happened, unless its condition is still what it was before
+    d = held.field.d
+    assert d is not None
+    waits = (d[: events.n_guards] > 0.5) != (known.rate > 0)
+    ahead = (known.t > t + apart) | (waits & (known.t > t))
+    times = jnp.where(ahead, known.t, jnp.inf)
     j = jnp.argmin(times)
     first = times[j] <= stop.t + apart
     rounding = 2 * apart * jnp.abs(known.rate)
