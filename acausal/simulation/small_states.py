@@ -29,7 +29,7 @@ def with_small_states(simulated: Simulated, n_states: int) -> Solution:
     """A simulation with the usual tolerances; where all states of a unit stay small, with finer ones.
 
     Arguments:
-        simulated: makes it. n_states: of the model.
+        simulated: makes it, or several at once. n_states: of the model.
     """
     atol = np.full(n_states, ATOL)
     solution = simulated(atol)
@@ -55,7 +55,8 @@ def _finer(solution: Solution) -> Float[np.ndarray, " n_states"] | None:
     x = known(solution.x)
     if x is None or not x.size:
         return None
-    largest = np.nan_to_num(np.abs(np.asarray(x, float)), posinf=np.inf).max(axis=0)
+    rows = np.abs(np.asarray(x, float)).reshape(-1, x.shape[-1])
+    largest = np.nan_to_num(rows, posinf=np.inf).max(axis=0)
     units = np.array([solution.unit(name) for name in solution.system.states])
     size = np.array([largest[units == unit].max() for unit in units])
     return ATOL * np.where((size > NOISE) & (size < SMALL), size, 1.0)
