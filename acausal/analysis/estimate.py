@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 import jax
@@ -12,7 +13,14 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float, PRNGKeyArray
 from scipy.optimize import minimize
 
-from acausal._jax import as_key, compiled, is_number, need_double_precision, traced
+from acausal._jax import (
+    as_key,
+    compiled,
+    is_number,
+    need_double_precision,
+    traced,
+    value_and_jacobian,
+)
 from acausal.analysis.estimation import Estimation
 from acausal.analysis.filtering import (
     Belief,
@@ -41,7 +49,6 @@ from acausal.simulation import (
     announce_inputs,
     evaluate_all,
     functions_of_time,
-    integrate,
     polynomials_over_steps,
 )
 
@@ -86,10 +93,14 @@ def estimate(
 
     Samples may be missing, and sensors may have different rates. The model is stepped by its own fixed steps, so that
     algebraic loops hold at every estimate. With ``noise`` and ``sensors`` as numbers all of it can be traced and
-    differentiated in reverse mode: the log likelihood by parameters, for example.
+    differentiated: the log likelihood by parameters, for example; of a model with events in forward mode only.
+
+    At an event, a covariance goes on with the derivatives through the instant, and what a controller has sampled is
+    estimated as a state is. Whole numbers and truth values are certain: those of the mean, or of each member of an
+    ensemble. A correction across a condition is an event.
 
     Arguments:
-        system: a compiled model without events.
+        system: a compiled model; without events for a moving horizon.
         record: with the model's inputs, and measurements of any of its variables.
         method: ``"ekf"``, the extended Kalman filter, whose derivatives are exact; ``"ukf"``, the unscented one;
             ``"enkf"``, an ensemble; or ``"mhe"``, a moving horizon: the most likely way through the last rows, found by
@@ -105,7 +116,8 @@ def estimate(
             ``"fit"`` finds that of each state, and of each sensor that ``sensors`` does not give.
         x0: the expected state at the start, by name, or ``"steady"``; by default as measured, else as the model starts.
         params: what differs from the model's parameters.
-        dt: the longest step of the integration; by default as short as the model's modes ask for.
+        dt: the longest step of the integration; by default as short as the model's modes ask for; steps of a model with
+            events follow their errors.
         solver: of the steps; ``"auto"`` is classical Runge-Kutta, or implicit for stiff models.
         smooth: whether estimates use later measurements, too, as `Estimation.smooth`.
         window: samples of the moving horizon.
@@ -118,7 +130,7 @@ def estimate(
 
     Raises:
         DataError: if the record lacks inputs or measurements, or an argument does not fit.
-        ModelError: for a model that is not compiled, or that has events or no states.
+        ModelError: for a model that is not compiled, has no states, or has events that the method does not follow.
     """
     how = filter_for(system, method, "estimate")
     window = need_whole(window, "window", DataError, 2)
@@ -132,11 +144,11 @@ def estimate(
     drift = numbers_by_name(parameters, system.layout.names, "parameters", kind)
     names = (*system.states, *drift)
     path, measured, first = _lay_out(system, data, known, tuple(drift), x0, params, dt, solver)
-    size = _sizes(path, first.x)
+    size = _sizes(path, first)
     spread = _spread(system, data, states, known, size)
-    start = belief_at(first.x, spread, path.model.params, drift)
+    start = belief_at(first, spread, path.model.params, drift)
     key = as_key(seed)
-    walk = jnp.concatenate([size / jnp.sqrt(path.t[-1] - path.t[0]), jnp.zeros(len(drift))])
+    walk = jnp.zeros(len(start.mean)).at[: len(size)].set(size / jnp.sqrt(path.t[-1] - path.t[0]))
 
     if isinstance(how, MovingHorizon):
         deviation = jnp.sqrt(jnp.diag(start.covariance))
@@ -151,17 +163,21 @@ def estimate(
     if isinstance(noise, Mapping):
         of = "a state, nor a parameter to estimate"
         chosen = numbers_by_name(noise, names, "noise", of)
-        q = jnp.stack([jnp.asarray(chosen.get(n, 0.0), float) for n in names])
+        given = jnp.stack([jnp.asarray(chosen.get(n, 0.0), float) for n in names])
+        q = jnp.zeros_like(walk).at[: len(names)].set(given)
     elif noise is None or noise == "fit":
         q = _best_level(lambda level: filtered(level * walk, r)) * walk
         if noise == "fit":
             given = sensors if isinstance(sensors, Mapping) else {}
             free = np.array([n not in given for n in known])
-            q, r = _fitted(lambda q, r: _likelihood(filtered(q, r)), q, r, free)
+            forward = (
+                system.events is not None
+            )  # their loops of steps have no derivatives in reverse mode here
+            q, r = _fitted(lambda q, r: _likelihood(filtered(q, r)), q, r, free, forward=forward)
     else:
         raise DataError(f"noise={shown(noise)}: give 'fit', or numbers by name of a state.")
     found = filtered(q, r, how)
-    levels = dict(zip(names, q, strict=True))
+    levels = dict(zip(names, q[: len(names)], strict=True))
     result = Estimation.of(path, found, measured, levels, dict(zip(known, r, strict=True)))
     return result.smooth() if smooth else result
 
@@ -171,15 +187,16 @@ def filter_for(system: System, method: str, what: str) -> Filter | MovingHorizon
 
     Raises:
         DataError: for an unknown name.
-        ModelError: for a model that is not compiled, or that has events or no states.
+        ModelError: for a model that is not compiled, has no states, or has events that the filter does not follow.
     """
     need_compiled(system, what)
     need_double_precision()
-    check_model(system, what)
     if not isinstance(method, str):
         raise DataError(f"method={shown(method)}; give the name of a method, such as 'ekf'.")
     if method not in METHODS:
         raise DataError(f"No method {shown(method)}: {nearest(method, METHODS)}")
+    what = f"{what}, method='mhe'," if method == "mhe" else what
+    check_model(system, what, events=what == "estimate")
     return {
         "ekf": EKF, "ukf": Linearized(by_points), "enkf": EnsembleFilter(), "mhe": MovingHorizon(),
     }[method]  # fmt: skip
@@ -284,7 +301,7 @@ def _lay_out(
     def at(packed: Packed) -> Values:
         chosen: Any = x0 if exact else begun or None
         x = system.initial_state(packed, chosen, inputs=u[0], t0=span[0])
-        return system.values(span[0], x, u[0], packed)
+        return system.modes(system.values(span[0], x, u[0], packed))
 
     model = make_model(
         system, tuple(known), drifting, params, at, float(np.max(np.diff(ts))), dt, solver
@@ -295,9 +312,9 @@ def _lay_out(
     return path, measured, at(model.packed)
 
 
-def _sizes(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+def _sizes(path: AlongRecord, start: Values) -> Float[Array, " n_states"]:
     """Half of the range that each state passes without corrections; its nominal value where that tells nothing."""
-    x, nominal = _open_loop(path, x0), jnp.asarray(path.model.system.nominal)
+    x, nominal = _open_loop(path, start), jnp.asarray(path.model.system.nominal)
     half = (jnp.max(x, axis=0) - jnp.min(x, axis=0)) / 2
     good = jnp.isfinite(half) & (half > 0) & (half < RUN_AWAY * nominal)
     guesses = slice(path.model.system.reduced.n_independent, None)  # of loops: they follow
@@ -305,10 +322,8 @@ def _sizes(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, " n
 
 
 @compiled
-def _open_loop(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, "n n_states"]:
-    model = path.model
-    start = Values(path.t[0], x0, path.u[0], model.packed)
-    return integrate(model.system, start, path.steps, model.solver, substeps=model.substeps).x
+def _open_loop(path: AlongRecord, start: Values) -> Float[Array, "n n_states"]:
+    return path.model.integrate(start, path.steps).x
 
 
 def _spread(
@@ -330,15 +345,18 @@ def _spread(
 
 
 def belief_at(
-    x0: Float[Array, " n_states"],
+    start: Values,
     spread: Float[Array, " n_states"],
     params: Mapping[str, Any],
     drift: Mapping[str, Any],
 ) -> Belief:
-    """The states at the start, and the parameters that drift."""
+    """The states at the start, the parameters that drift, and discrete variables, which are known."""
     own = jnp.asarray([params[n] for n in drift], float)
-    deviations = jnp.concatenate([spread, jnp.asarray(list(drift.values()), float)])
-    return Belief(jnp.concatenate([x0, own]), jnp.diag(deviations**2))
+    d = jnp.zeros(0) if start.d is None else start.d
+    deviations = jnp.concatenate(
+        [spread, jnp.asarray(list(drift.values()), float), jnp.zeros_like(d)]
+    )
+    return Belief(jnp.concatenate([start.x, own, d]), jnp.diag(deviations**2))
 
 
 def _with_members(start: Belief, count: int, key: PRNGKeyArray) -> Belief:
@@ -359,7 +377,7 @@ def _filtered(
     sigma = q * jnp.sqrt(path.steps.h)[:, None]
     if isinstance(how, MovingHorizon):
         return how.run(path, start, measured, sigma)
-    return run(how, path, start, measured, sigma, key)
+    return run(how, path, start, measured, sigma, key, path.settled)
 
 
 def _likelihood(filtered: Filtered) -> Float[Array, ""]:
@@ -386,6 +404,8 @@ def _fitted(
     q: Float[Array, " m"],
     r: Float[Array, " p"],
     free: Bool[np.ndarray, " p"],
+    *,
+    forward: bool,
 ) -> tuple[Float[Array, " m"], Float[Array, " p"]]:
     """The most likely process noise, where there is some, and noise of the free sensors; by L-BFGS on logarithms."""
     moving = np.concatenate([np.asarray(q) > 0, free])
@@ -394,7 +414,11 @@ def _fitted(
         factors = jnp.exp(jnp.zeros(len(moving)).at[np.flatnonzero(moving)].set(theta))
         return q * factors[: len(q)], r * factors[len(q) :]
 
-    cost = jax.jit(jax.value_and_grad(lambda theta: -likelihood(*at(theta))))
+    def less(theta: Float[Array, " k"]) -> Float[Array, ""]:
+        return -likelihood(*at(theta))
+
+    derived = partial(value_and_jacobian, less, axis=-1) if forward else jax.value_and_grad(less)
+    cost = jax.jit(derived)
 
     def both(theta: Any) -> tuple[float, np.ndarray]:
         value, slope = cost(jnp.asarray(theta))

@@ -37,7 +37,7 @@ class Estimation(Solution):
     ``found["wheel.a"]`` is a variable, as of a `Solution`; ``found.deviation("wheel.a")`` its standard deviation.
 
     Attributes, besides those of `Solution`:
-        covariance: of the states and the estimated parameters.
+        covariance: of the states, the estimated parameters and the discrete variables of a model with events.
         innovations: by sensor, measured less expected from all before; NaN where nothing is measured.
         innovation_covariance: theirs, in the order of `sensors`.
         log_likelihood: of all measurements.
@@ -105,7 +105,11 @@ class Estimation(Solution):
         """
         names, path = names_in(name), self._path("deviation")
         own = tuple(self.parameters)
-        z = jnp.concatenate([self.x, *(self.parameters[n][:, None] for n in own)], axis=1)
+        d = self.values.d
+        z = jnp.concatenate(
+            [self.x, *(self.parameters[n][:, None] for n in own), *([] if d is None else [d])],
+            axis=1,
+        )
         read = tuple(n for n in names if n not in own)
         columns = dict(zip(read, _variances(path, read, z, self.covariance).T, strict=True))
         first = len(self.system.states)
@@ -170,7 +174,7 @@ class Estimation(Solution):
         if traced(self.t):
             return f"Estimation({len(self.names)} variables)"
         states = (*self.system.states, *self.parameters)
-        last = np.sqrt(np.diagonal(np.asarray(self.covariance[-1])))
+        last = np.sqrt(np.diagonal(np.asarray(self.covariance[-1])))[: len(states)]
         now = [*np.asarray(self.x[-1]), *(float(v[-1]) for v in self.parameters.values())]
         kind = "smoothed" if self.filtered is None else "filtered"
         span = f"{self.t.shape[0]} points from {float(self.t[0]):g} to {float(self.t[-1]):g} s"
@@ -188,13 +192,14 @@ def _values(
     path: AlongRecord, mean: Float[Array, "n m"]
 ) -> tuple[Values, dict[str, Float[Array, " n"]]]:
     """The values of the model along a path, and the parameters that drift."""
-    model, n = path.model, len(path.model.system.states)
+    model = path.model
     packed, mean = model.packed, _closed(path, mean)
     if model.drifting:
         rows = jax.vmap(lambda z: model.packed_at(z).values)(mean)
         packed = Packed(rows, packed.modules)
-    own = dict(zip(model.drifting, mean[:, n:].T, strict=True))
-    return Values(path.t, mean[:, :n], path.u, packed), own
+    x, own, d = model.parts(mean)
+    found = dict(zip(model.drifting, own.T, strict=True))
+    return Values(path.t, x, path.u, packed, None if model.system.events is None else d), found
 
 
 @compiled

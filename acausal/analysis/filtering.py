@@ -160,6 +160,10 @@ class Filtered(NamedTuple):
     shared: Float[Array, "n-1 m m"]
 
 
+Settle = Callable[[Belief, Belief | None], Belief]
+"""(belief, that before its correction or None after a step) -> the belief with what is certain in it."""
+
+
 class Path(Protocol):
     """A model along the rows of a record."""
 
@@ -179,6 +183,7 @@ def run(
     measured: Measured,
     sigma: Float[Array, "n-1 m"],
     key: PRNGKeyArray,
+    settle: Settle = lambda belief, _before: belief,
 ) -> Filtered:
     """Filter n rows in one scan; it can be differentiated in reverse mode.
 
@@ -189,17 +194,19 @@ def run(
         measured: of all rows, shapes (n, p).
         sigma: standard deviations of the noise of every step.
         key: of random numbers.
+        settle: restores what is certain, such as the modes of a model with events.
     """
 
     def corrected(belief: Belief, row: Array) -> tuple[Belief, Innovation]:
         here = Measured(measured.y[row], measured.known[row], measured.sigma)
         own = jax.random.fold_in(key, 2 * row)
-        return filter.correct(belief, path.observe(row), here, own)
+        after, found = filter.correct(belief, path.observe(row), here, own)
+        return settle(after, belief), found
 
     def advance(belief: Belief, row: Array) -> tuple[Belief, tuple[Any, ...]]:
         own = jax.random.fold_in(key, 2 * row + 1)
         ahead, shared = filter.forecast(belief, path.step(row), sigma[row], own)
-        belief, found = corrected(ahead, row + 1)
+        belief, found = corrected(settle(ahead, None), row + 1)
         return belief, (belief.mean, belief.covariance, found, Belief(*ahead[:2]), shared)
 
     first, found = corrected(start, jnp.asarray(0))

@@ -297,7 +297,7 @@ def observer(
     model = make_model(system, tuple(known), tuple(drift), params, at, sample_time, dt, solver)
     usual = system.nominal * (np.arange(len(system.states)) < system.reduced.n_independent)
     spread = [given.get(n, s) for n, s in zip(system.states, usual.tolist(), strict=True)]
-    start = belief_at(at(model.packed).x, jnp.asarray(spread, float), model.params, drift)
+    start = belief_at(at(model.packed), jnp.asarray(spread, float), model.params, drift)
     r = jnp.asarray([float(v) for v in known.values()])
     q = jnp.asarray([float(walks.get(n, 0.0)) for n in order])
     nothing = jnp.full(len(system.inputs), jnp.nan)

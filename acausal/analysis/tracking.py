@@ -9,14 +9,25 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from acausal._jax import is_number, known, traced
-from acausal.analysis.filtering import Function
+from acausal.analysis.filtering import Belief, Function
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, ModelError, nearest, shown
+from acausal.events import fire
 from acausal.modeling import by_name
-from acausal.simulation import Scheme, Steps, for_fixed_steps, integrate, modes, solver_named
+from acausal.simulation import (
+    Adaptive,
+    Integrated,
+    Scheme,
+    Steps,
+    for_fixed_steps,
+    integrate,
+    integrate_in_steps,
+    modes,
+    solver_named,
+)
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -34,12 +45,16 @@ LONGER = 1e-6
 class TrackedModel(eqx.Module):
     """A model whose states and drifting parameters are estimated from sensors.
 
+    An estimate ``z`` has the states, then these parameters, then the discrete variables of a model with events: what a
+    controller has sampled is uncertain as the states are, whole numbers and truth values are taken as known.
+
     Attributes:
         system: the model.
         sensors: names of what is measured.
         drifting: names of the parameters that are estimated, too.
         params: all parameters; those that drift are replaced.
-        solver, substeps: the scheme, and its steps from row to row.
+        solver, substeps: the scheme, and its steps from row to row; adaptive steps where a model with events asks for
+            no others.
     """
 
     system: System = eqx.field(static=True)
@@ -47,36 +62,70 @@ class TrackedModel(eqx.Module):
     drifting: tuple[str, ...] = eqx.field(static=True)
     params: dict[str, Any]
     packed: Packed
-    solver: Scheme = eqx.field(static=True)
+    solver: Scheme | Adaptive = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
 
     def values(self, t: Array, z: Float[Array, " m"], u: Float[Array, " n_inputs"]) -> Values:
         """The values of the model at an estimate."""
-        return Values(t, z[: len(self.system.states)], u, self.packed_at(z))
+        x, _, d = self.parts(z)
+        if (events := self.system.events) is not None:
+            d = jnp.where(events.exact, jax.lax.stop_gradient(jnp.round(d)), d)
+        return Values(t, x, u, self.packed_at(z), None if events is None else d)
+
+    def parts(self, z: Float[Array, "*n m"]) -> tuple[Array, Array, Array]:
+        """States, parameters that drift, and discrete variables."""
+        n = len(self.system.states)
+        first, rest = z[..., :n], z[..., n:]
+        return first, rest[..., : len(self.drifting)], rest[..., len(self.drifting) :]
+
+    @property
+    def certain(self) -> Bool[np.ndarray, " m"]:
+        """What of an estimate is taken as known."""
+        own = np.zeros(len(self.system.states) + len(self.drifting), bool)
+        events = self.system.events
+        return own if events is None else np.concatenate([own, events.exact])
 
     def packed_at(self, z: Float[Array, " m"]) -> Packed:
         """The parameters at an estimate."""
-        own = zip(self.drifting, z[len(self.system.states) :], strict=True)
+        own = zip(self.drifting, self.parts(z)[1], strict=True)
         return self.system.pack({**self.params, **dict(own)}) if self.drifting else self.packed
 
     def closed(self, t: Array, z: Float[Array, " m"], u: Float[Array, " n_inputs"]) -> Array:
-        """An estimate whose guesses of closed loops are the solutions, to which a correction moves them but nearly."""
+        """An estimate whose guesses of closed loops are the solutions, and whose conditions agree with it.
+
+        A correction moves them there but nearly.
+        """
+        z = self.agreeing(t, z, u)
         if not len(self.system.reduced.guessed):
             return z
         x = self.system.initializer.closed(self.values(t, z, u))
-        return jnp.concatenate([x, z[len(self.system.states) :]])
+        return jnp.concatenate([x, *self.parts(z)[1:]])
 
     def after(self, z: Float[Array, " m"], step: Steps) -> Float[Array, " m"]:
         """The estimate after a step, without noise."""
-        n = len(self.system.states)
+        z = self.agreeing(step.t, z, step.inputs.start)
         start = self.values(step.t, z, step.inputs.start)
-        one = jax.tree.map(lambda a: a[None], step)
-        found = integrate(self.system, start, one, self.solver, substeps=self.substeps, direct=True)
-        return jnp.concatenate([found.end, z[n:]])
+        found = self.integrate(start, jax.tree.map(lambda a: a[None], step), direct=True)
+        _, own, d = self.parts(z)
+        return jnp.concatenate([found.end, own, d if found.d is None else found.d])
+
+    def integrate(self, start: Values, steps: Steps, *, direct: bool = False) -> Integrated:
+        """The model over some rows; arguments as of `acausal.simulation.integrate`."""
+        over: Any = integrate if self.system.events is None else integrate_in_steps
+        return over(self.system, start, steps, self.solver, substeps=self.substeps, direct=direct)
+
+    def agreeing(
+        self, t: Array, z: Float[Array, " m"], u: Float[Array, " n_inputs"]
+    ) -> Float[Array, " m"]:
+        """An estimate whose conditions agree with its states: where one has changed, its event happens."""
+        if (events := self.system.events) is None:
+            return z
+        after = fire(events, self.values(t, z, u), -jnp.ones(events.n_guards, z.dtype))
+        return jnp.concatenate([after.x, self.parts(z)[1], after.d])
 
     def read(self, z: Float[Array, " m"], t: Array, u: Float[Array, " n_inputs"]) -> Array:
         """What the sensors show."""
-        return self.system.read(self.sensors, self.values(t, z, u))
+        return self.system.read(self.sensors, self.values(t, self.agreeing(t, z, u), u))
 
 
 class AlongRecord(eqx.Module):
@@ -101,6 +150,16 @@ class AlongRecord(eqx.Module):
     def observe(self, row: Array) -> Function:
         """What is measured at a row."""
         return lambda z: self.model.read(z, self.t[row], self.u[row])
+
+    def settled(self, belief: Belief, before: Belief | None) -> Belief:
+        """A belief in which whole numbers and truth values are certain: those before its correction."""
+        certain = self.model.certain
+        if not certain.any():
+            return belief
+        known = belief if before is None else before
+        kept = jax.tree.map(lambda a, b: jnp.where(certain, jnp.round(b), a), belief, known)
+        covariance = jnp.where(certain[:, None] | certain, 0.0, belief.covariance)
+        return kept._replace(covariance=covariance)
 
 
 def rows_of(time: Float[np.ndarray, " n_samples"]) -> Float[np.ndarray, " n"]:
@@ -138,24 +197,30 @@ def make_model(
     if dt is not None and not (is_number(dt) and dt > 0):
         raise DataError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")
     parts = None if dt is None else max(1, int(np.ceil(longest / dt - LONGER)))
+    own = sensors, drifting, every, packed
+    if isinstance(solver, str) and solver == "auto" and dt is None and system.events is not None:
+        return TrackedModel(system, *own, Adaptive(), 1)
     if isinstance(solver, str) and solver == "auto":
         found = parts_of_steps(system, at(packed), longest if dt is None else min(dt, longest))
         solver = "kvaerno3" if found is None else "rk4"
         parts = (parts or 1) * (found or 1) if dt is None else parts
     scheme = for_fixed_steps(solver_named(solver, fixed=True))
-    return TrackedModel(system, sensors, drifting, every, packed, scheme, parts or 1)
+    return TrackedModel(system, *own, scheme, parts or 1)
 
 
-def check_model(system: System, what: str) -> None:
-    """Refuse a model that filters cannot follow.
+def check_model(system: System, what: str, *, events: bool) -> None:
+    """Refuse a model that cannot be followed.
+
+    Arguments:
+        what: is asked for. events: whether that follows events.
 
     Raises:
-        ModelError: for a model with events, or without states.
+        ModelError: for a model without states, or with events where these are not followed.
     """
-    if system.events is not None:
+    if system.events is not None and not events:
         raise ModelError(
-            f"{what}: '{system.flat.name}' has events, at which a covariance jumps with the states, which filters do "
-            "not follow: take smooth laws, or ac.compile(model, inputs=[...]) with measured modes."
+            f"{what} does not follow events, and '{system.flat.name}' has some: take ac.estimate with method='ekf', "
+            "'ukf' or 'enkf', smooth laws, or ac.compile(model, inputs=[...]) with measured modes."
         )
     if not system.states:
         raise ModelError(f"{what}: '{system.flat.name}' has no states to estimate.")

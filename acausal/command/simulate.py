@@ -78,7 +78,9 @@ def _add_times(parser: ArgumentParser) -> None:
     times.add_argument("--points", type=int, metavar="N", help="save so many equal points")
     times.add_argument("--solver", default="auto", help="auto, bdf, tsit5, heun, euler, ...")
     times.add_argument("--rtol", type=float, default=1e-6, help="relative tolerance (1e-6)")
-    times.add_argument("--atol", type=float, default=1e-8, help="absolute tolerance (1e-8)")
+    times.add_argument(
+        "--atol", type=float, help="absolute tolerance (1e-8; finer for states that stay small)"
+    )
 
 
 def run(args: Namespace, out: CommandOutput) -> None:

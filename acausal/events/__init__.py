@@ -35,6 +35,7 @@ from acausal.events.root_bracketing import (
     no_bracketing as no_bracketing,
 )
 from acausal.events.zero_crossings import (
+    Due as Due,
     due as due,
     guards as guards,
     guards_and_rates as guards_and_rates,

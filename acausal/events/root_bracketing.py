@@ -5,12 +5,22 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal.events.event_formulas import Events
 
 POINTS = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Where a step is looked at: a condition may change twice within it."""
+
+BETWEEN = np.delete(np.arange(1, 32) / 32, [7, 15, 23])
+"""Where else numbers are estimated: a condition may change and change back between two of these points."""
+
+QUARTIC = np.linalg.solve(np.vander(POINTS).T, np.vander(BETWEEN, len(POINTS)).T).T
+"""Times the numbers at the `POINTS`: those of the polynomial through them, at the places `BETWEEN`."""
+
+PEAK = 1e-5
+"""Of a condition's change over the step: an estimated number beyond zero must be larger to be looked for."""
 
 TRIES = 80
 """Steps, at most, until an instant is found."""
@@ -63,6 +73,8 @@ class Found(NamedTuple):
         bracketing: how the search goes on, if it does.
         is_event: whether the step ends where a condition changes. which: the one. band: see `fire`.
         grazes: whether that one hardly changes there, so that its instant has no derivative, or a huge one.
+        peak: the part of the step at whose end a condition seems to have changed, although it has not at any of the
+            `POINTS`; 1 where none does.
     """
 
     bracketing: Bracketing
@@ -70,6 +82,7 @@ class Found(NamedTuple):
     which: Int[Array, ""]
     band: Float[Array, " n_guards"]
     grazes: Bool[Array, ""]
+    peak: Float[Array, ""]
 
 
 def no_bracketing(events: Events, like: Float[Array, ""]) -> Bracketing:
@@ -136,7 +149,16 @@ def look(
         which.astype(jnp.int32),
         band,
         is_event & _grazes(numbers[:, which]),
+        _peak(over / scale, ~(later | events.timed | jnp.any(touches, axis=0))),
     )
+
+
+def _peak(share: Float[Array, "n_points n"], watched: Bool[Array, " n"]) -> Float[Array, ""]:
+    """Where between the `POINTS` a number is largest by the polynomial through them, if it is beyond zero there."""
+    between = jnp.asarray(QUARTIC, share.dtype) @ jnp.where(watched, share, -1.0)
+    largest = jnp.max(between, axis=1, initial=-1.0)
+    place = jnp.asarray(BETWEEN, share.dtype)[jnp.argmax(largest)]
+    return jnp.where(jnp.max(largest) > PEAK, place, 1.0)
 
 
 def _grazes(number: Float[Array, " n_points"]) -> Bool[Array, ""]:

@@ -64,14 +64,15 @@ class Due(NamedTuple):
 
 
 def due(events: Events, now: Values) -> Due:
-    """When conditions change whose time is known."""
-    at_zero, at_one = (
-        guards(events, now._replace(t=jnp.full_like(now.t, t)), timed=True) for t in (0.0, 1.0)
-    )
-    rate = jnp.where(events.timed, at_one - at_zero, 1.0)
+    """When conditions change whose time is known: their numbers grow evenly with time."""
+    t = jnp.asarray(
+        now.t
+    )  # from here on: seconds of a calendar leave few digits for the rate from zero on
+    here, later = (guards(events, now._replace(t=at), timed=True) for at in (t, t + 1))
+    rate = jnp.where(events.timed, later - here, 1.0)
     # Else a number does not change, or is so large that rounding hides it.
     known = events.timed & (rate != 0)
-    return Due(jnp.where(known, -at_zero / jnp.where(known, rate, 1.0), jnp.inf), rate)
+    return Due(jnp.where(known, t - here / jnp.where(known, rate, 1.0), jnp.inf), rate)
 
 
 def updated(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import warnings
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, cast
 from weakref import WeakSet
 
@@ -30,6 +31,7 @@ from acausal.simulation.inputs import (
     inputs_by_name,
 )
 from acausal.simulation.run import Run
+from acausal.simulation.small_states import ATOL, with_small_states
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import step_ends
 from acausal.simulation.steps import InSteps, Tolerance, check_tolerances
@@ -63,7 +65,7 @@ def simulate(
     x0: Mapping[str, ArrayLike] | ArrayLike | Literal["steady"] | None = None,
     solver: str | solvers.Solver = "auto",
     rtol: Tolerance = 1e-6,
-    atol: Tolerance = 1e-8,
+    atol: Tolerance | None = None,
     max_steps: int = 100_000,
     max_step: float | None = None,
     adjoint: dfx.AbstractAdjoint | None = None,
@@ -95,7 +97,9 @@ def simulate(
             it goes on with BDF from where stability, and not accuracy, limits the steps: where the model is stiff.
             ``"stiff"`` is implicit from the start: BDF, Kvaerno5 with events, and Kvaerno3 in fixed steps.
         rtol: relative tolerance of an adaptive step.
-        atol: absolute tolerance of an adaptive step, in the states' units.
+        atol: absolute tolerance of an adaptive step, in the states' units; by default 1e-8, and where all states of a
+            unit stay below 1e-4, 1e-8 of the largest: then the simulation is made again. Where JAX traces it, as in
+            `jax.jit` and `jax.grad`, that cannot be seen: give ``atol`` there.
         max_steps: limit of adaptive steps. Each edge of a source allows eight more.
         max_step: the longest adaptive step, in seconds; by default a fiftieth of the span, ``inf`` for none. Steps end
             where sources and tables jump or bend, take at most an eighth of the period of a sine of time, and are
@@ -126,7 +130,8 @@ def simulate(
     called = solver if isinstance(solver, str) else ""
     if called != "bdf" and not isinstance(solver, solvers.BDF):
         system = system.watching(traced_names(params))
-    check_tolerances(rtol, atol, len(system.states))
+    n_states = len(system.states)
+    check_tolerances(rtol, ATOL if atol is None else atol, n_states)
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
@@ -137,7 +142,7 @@ def simulate(
             f"max_step={shown(max_step)} bounds adaptive steps, but dt={shown(dt)} makes fixed ones: give one of them."
         )
     _check_adjoint(adjoint)
-    width = 2 + len(system.states) + 3 * len(system.inputs)
+    width = 2 + n_states + 3 * len(system.inputs)
     ends = None if dt is None else step_ends(start, end, dt, width)
     given = inputs_by_name(system, inputs)
     functions = functions_of_time(system, given, (start, end), ends)
@@ -156,7 +161,8 @@ def simulate(
     times = saved
     if times is None:
         times = np.linspace(start, end, POINTS) if ends is None else ends
-    in_steps = InSteps(times, chosen, rtol, atol, max_steps, kind, ends, forward, longest)
+    first: Any = np.full(n_states, ATOL) if atol is None else atol
+    in_steps = InSteps(times, chosen, rtol, first, max_steps, kind, ends, forward, longest)
     # with events, what finds the start takes as long to compile as a third of the steps: both at the same time
     if system.events is not None and not traced(packed, x0, u_start) and system not in _SIMULATED:
         _SIMULATED.add(system)
@@ -171,7 +177,10 @@ def simulate(
         solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
         _warn_of_another_solution(solution)
         return solution
-    solution = in_steps.simulate(run)
+    if atol is None and ends is None:
+        solution = with_small_states(lambda a: replace(in_steps, atol=a).simulate(run), n_states)
+    else:
+        solution = in_steps.simulate(run)
     if saveat is None and ends is None:
         _warn_of_few_points(solution, end - start)
     _warn_of_another_solution(solution)

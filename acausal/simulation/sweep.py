@@ -29,6 +29,7 @@ from acausal.errors import (
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import ByName, by_name, names_in, names_matching
 from acausal.simulation.simulate import simulate
+from acausal.simulation.small_states import with_small_states
 from acausal.simulation.solution import Solution
 
 if TYPE_CHECKING:
@@ -236,8 +237,15 @@ def sweep(
     if "params" in roles.values() and params is None:
         common["params"] = system.parameters()
 
-    shared = _Shared(system, t, roles, common, options)
-    runs = _runs(shared, columns) if executor is None else _on_workers(executor, shared, columns)
+    make = _runs if executor is None else partial(_on_workers, executor)
+
+    def made(**finer: Any) -> Solution:
+        return make(_Shared(system, t, roles, common, {**options, **finer}), columns)
+
+    if options.get("dt") is None and options.get("atol") is None:
+        runs = with_small_states(lambda atol: made(atol=atol), len(system.states))
+    else:
+        runs = made()
     _warn_of_broken(runs, columns)
     return Sweep(runs, values, grid)
 

@@ -137,7 +137,7 @@ class CrossValidation:
         """One sentence: the errors of what was left out, beside those of what was trained on."""
         units = self._units
         errors = [
-            f"{_written(spread)} {units[n]}".removesuffix(" 1")
+            f"{_written(spread)} {units[n]}".removesuffix(" 1").rstrip()
             + f" RMS of {n} ({self.training_rms[n].mean:.3g} where trained)"
             for n, spread in self.rms.items()
         ]
@@ -181,7 +181,9 @@ class CrossValidation:
 
     @property
     def _header(self) -> tuple[str, ...]:
-        errors = (f"RMS error of {n} [{unit}]" for n, unit in self._units.items())
+        errors = (
+            f"RMS error of {n} [{unit}]".removesuffix(" []") for n, unit in self._units.items()
+        )
         return ("without", "training loss", "held-out loss", *errors)
 
     def _rows(self) -> list[tuple[str, ...]]:

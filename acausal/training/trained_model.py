@@ -20,7 +20,8 @@ from acausal.training.objective.trainable import Trainable
 from acausal.training.record_fit import RecordFit, of_records, residuals_of, rms_of
 from acausal.training.starts import Starts
 from acausal.training.strategy import StageResult
-from acausal.training.uncertainty.confidence import Confidence, confidence
+from acausal.training.uncertainty.confidence import Confidence
+from acausal.training.uncertainty.laplace import confidence
 from acausal.training.uncertainty.residuals import Residuals
 
 if TYPE_CHECKING:

@@ -19,7 +19,6 @@ from acausal.analysis.filtering import (
     run,
 )
 from examples.qvm.model import with_networks
-from tests.support.hybrid import Ball
 from tests.support.oscillator import C, D, M, force, plain
 
 H, N, R, Q = 0.05, 60, 0.02, 0.3
@@ -302,5 +301,3 @@ def test_records_and_models_that_do_not_fit_are_refused():
         ac.estimate(plain(), ac.Data(t, {"push.f": t}))
     with pytest.raises(ac.DataError, match=r"lack 'push\.f', an input"):
         ac.estimate(plain(), ac.Data(t, {"mass.s": t}))
-    with pytest.raises(ac.ModelError, match="has events, at which a covariance jumps"):
-        ac.estimate(ac.compile(Ball()), ac.Data(t, {"h": t}))

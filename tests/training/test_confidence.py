@@ -48,6 +48,9 @@ def test_the_band_of_a_law_holds_the_truth():
     assert band.sigma[inside].max() < 0.2 * 20.0
     middle, edge = band.sigma[len(band.sigma) // 2], band.sigma[0]
     assert edge > 3 * middle  # nothing was seen there
+    told = repr(fit.confidence()).splitlines()[1]
+    assert re.match(r"'extra.net' is known to .* % of its range, at worst to .* % near -?\d", told)
+    assert repr(fit.residuals()[0]).startswith("Residuals of 'mass.a': the residuals")
 
 
 @pytest.mark.machines

@@ -7,7 +7,7 @@ import optax
 import pytest
 
 import acausal as ac
-from tests.support.hybrid import Ball, Thermostat, ball_height
+from tests.support.hybrid import Ball, Sampled, Thermostat, ball_height
 
 
 @pytest.fixture(scope="module")
@@ -64,3 +64,19 @@ def test_equation_error_needs_states_without_events(zone: tuple[ac.System, ac.Da
     system, data = zone
     with pytest.raises(ac.TrainingError, match="events"):
         ac.fit(system, data, targets=["T"], modifiers=["C"], strategy="equation_error")
+
+
+@pytest.mark.slow
+def test_sampling_instants_are_those_of_each_records_own_time() -> None:
+    """Records begin at any time; a controller samples by the model's time in each of them."""
+    system = ac.compile(Sampled())
+    records = {}
+    for begin, level in ((100.02, 0.0), (3.07, 0.5)):
+        t = begin + np.linspace(0.0, 1.0, 21)
+        run = ac.simulate(system, (t[0], t[-1]), saveat=t, x0={"x": level}, rtol=1e-9)
+        records[f"from {begin:g}"] = ac.Data(t, {"x": np.asarray(run["x"])})
+    fit = ac.fit(
+        system, records, "x", modifiers=["k"], params={"k": 1.6}, strategy="gauss_newton", epochs=6
+    )
+    assert fit.params["k"] == pytest.approx(2.0, rel=1e-3)
+    assert fit.loss < 1e-3

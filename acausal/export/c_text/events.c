@@ -93,12 +93,18 @@ static void find_due(Model *m, const real *u) {
         for (int i = 0; i < GUARDS; i++) m->e.due[i] = INFINITY, m->e.rate[i] = 0;
         return;
     }
-    conditions(m, 0, m->x, u, m->x, m->d, m->e.due);
-    conditions(m, 1, m->x, u, m->x, m->d, m->e.number);
+    conditions(m, m->time, m->x, u, m->x, m->d, m->e.due);
+    conditions(m, m->time + 1, m->x, u, m->x, m->d, m->e.number);
     for (int i = 0; i < GUARDS; i++) {
         m->e.rate[i] = m->e.number[i] - m->e.due[i];
-        m->e.due[i] = timed[i] && m->e.rate[i] != 0 ? -m->e.due[i] / m->e.rate[i] : INFINITY;
+        m->e.due[i] = timed[i] && m->e.rate[i] != 0 ? m->time - m->e.due[i] / m->e.rate[i] : INFINITY;
     }
+}
+
+/* Whether the time of a condition is still to come: it is later than what counts as now, or has not changed it yet. */
+static int is_ahead(const Model *m, const int i, const real t, const real apart) {
+    const int waits = (m->d[i] > R(0.5)) != (m->e.rate[i] > 0);
+    return m->e.due[i] > t + apart || (waits && m->e.due[i] > t);
 }
 
 /* Conditions whose time has come change, whatever rounding makes of their numbers. */
@@ -245,7 +251,7 @@ Status model_step(Model *m, const real h, const real *u_end) {
             m->e.u_from[i] = m->e.u_begin[i] + (t - begin) * m->e.along_u[i];
         find_due(m, m->e.u_from);
         for (int i = 0; i < GUARDS; i++)
-            if (m->e.due[i] > t + apart && m->e.due[i] < soonest) soonest = m->e.due[i];
+            if (is_ahead(m, i, t, apart) && m->e.due[i] < soonest) soonest = m->e.due[i];
         int is_timed = soonest <= stop + apart;
         if (is_timed) stop = soonest;
 #if EDGES
@@ -253,7 +259,7 @@ Status model_step(Model *m, const real h, const real *u_end) {
         if (m->until < stop - apart) stop = m->until, is_timed = 0;
 #endif
         for (int i = 0; i < GUARDS; i++) {
-            if (!(m->e.due[i] > t + apart)) m->e.due[i] = INFINITY;
+            if (!is_ahead(m, i, t, apart)) m->e.due[i] = INFINITY;
             m->e.rounding[i] = 2 * apart * fabs(m->e.rate[i]);
             m->e.band[i] = is_timed && m->e.due[i] <= soonest + apart ? m->e.rounding[i] : (real)-1;
             m->e.forced[i] = m->d[i] < R(0.5);
@@ -335,6 +341,6 @@ real model_next_event(Model *m) {
 #endif
     find_due(m, m->u);
     for (int i = 0; i < GUARDS; i++)
-        if (m->e.due[i] > m->time + COINCIDE * fabs(m->time) && m->e.due[i] < soonest) soonest = m->e.due[i];
+        if (is_ahead(m, i, m->time, COINCIDE * fabs(m->time)) && m->e.due[i] < soonest) soonest = m->e.due[i];
     return soonest;
 }

@@ -10,7 +10,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import cond_any, without_derivatives
-from acausal.events import COINCIDE, POINTS, Bracketing, Events, due, guards, look, no_bracketing
+from acausal.events import COINCIDE, POINTS, Bracketing, Events, guards, look, no_bracketing
 from acausal.simulation.log import Log
 from acausal.simulation.steps.one_step import Memory
 from acausal.simulation.steps.problem import Attempt, Counts, Integration
@@ -39,6 +39,7 @@ class EventState(NamedTuple):
         bracketing: for the instant of the next.
         deadband: how far beyond zero a condition's number must be to count: more than zero where rounding and the
             errors of steps have made an event that changed nothing.
+        peeked: whether this step is a shorter one, up to where a condition seemed to change and to change back.
     """
 
     d: Float[Array, " n_discrete"]
@@ -47,6 +48,7 @@ class EventState(NamedTuple):
     last: Float[Array, ""]
     bracketing: Bracketing
     deadband: Float[Array, " n_guards"]
+    peeked: Bool[Array, ""]
 
 
 class Stop(NamedTuple):
@@ -75,6 +77,7 @@ class EventsInStep(NamedTuple):
         ok: whether it counts. stop: where it ends.
         bracketing: how the search for an instant goes on. grazes: whether the condition hardly changes there.
         doubted: whether the step is made shorter before its change of a condition is believed.
+        part: the part of its length that it is made again with, where no search for an instant has begun; 1: none.
     """
 
     ok: Bool[Array, ""]
@@ -82,6 +85,7 @@ class EventsInStep(NamedTuple):
     bracketing: Bracketing
     grazes: Bool[Array, ""]
     doubted: Bool[Array, ""]
+    part: Float[Array, ""]
 
 
 class Landing(NamedTuple):
@@ -105,9 +109,8 @@ class Landing(NamedTuple):
 def none_yet(events: Events, t: Array, d: Array, log: Log) -> EventState:
     """Before the first event."""
     zero, before = jnp.zeros((), jnp.int32), jnp.full_like(t, -jnp.inf)
-    return EventState(
-        d, log, zero, before, no_bracketing(events, t), jnp.zeros(events.n_guards, t.dtype)
-    )
+    nothing = no_bracketing(events, t), jnp.zeros(events.n_guards, t.dtype), jnp.array(False)
+    return EventState(d, log, zero, before, *nothing)
 
 
 def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
@@ -116,9 +119,15 @@ def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
     band = -jnp.ones(events.n_guards, x.dtype)
     if not events.timed.any():
         return stop._replace(band=band)
-    apart = COINCIDE * jnp.maximum(jnp.abs(t), span)
-    known = lax.stop_gradient(due(events, held.field.at(t).values(x)))
-    times = jnp.where(known.t > t + apart, known.t, jnp.inf)
+    largest = jnp.maximum(jnp.abs(t), jnp.abs(t + held.field.shift(t)))
+    apart = COINCIDE * jnp.maximum(largest, span)
+    known = lax.stop_gradient(held.field.due(events, t, x))
+    # one that is due so soon that it counts as now has happened, unless its condition is still what it was before
+    d = held.field.d
+    assert d is not None
+    waits = (d[: events.n_guards] > 0.5) != (known.rate > 0)
+    ahead = (known.t > t + apart) | (waits & (known.t > t))
+    times = jnp.where(ahead, known.t, jnp.inf)
     j = jnp.argmin(times)
     first = times[j] <= stop.t + apart
     rounding = 2 * apart * jnp.abs(known.rate)
@@ -145,18 +154,21 @@ def look_within(
     """See whether a condition changes in a step, and whether that ends where it does."""
     events, ok, bracketing = held.watched, made.accepted, state.bracketing
     if events.timed.all():
-        return EventsInStep(ok, stop, bracketing, jnp.array(False), jnp.array(False))
+        no, whole = jnp.array(False), jnp.ones_like(h)
+        return EventsInStep(ok, stop, bracketing, no, no, whole)
     numbers = _numbers(method, held, made, t, h)
     found = look(events, bracketing, numbers, state.deadband, state.d, *lax.stop_gradient((t, h)))
     # a fast mode swings where stability limits the steps, and what depends on it changes to and fro
     doubted = ok & made.limited & found.bracketing.active & ~bracketing.active
     searches = found.bracketing.active & (ok | bracketing.active) & ~doubted
+    peeks = ok & ~(found.bracketing.active | bracketing.active | state.peeked) & method.chooses
+    part = jnp.where(doubted, LESS, jnp.where(peeks, found.peak, 1.0)).astype(h.dtype)
     is_event, changing = found.is_event, found.band
     if stop.times is not None:  # a condition whose time has come would be missed after the event
         near = jnp.abs(stop.times - (t + h)) <= stop.apart
         changing = jnp.where(near, jnp.maximum(changing, stop.rounding), changing)
     return EventsInStep(
-        (ok | is_event) & ~searches & ~doubted,
+        (ok | is_event) & ~searches & (part == 1),
         stop._replace(
             kind=jnp.where(is_event, STATE, stop.kind).astype(jnp.int32),
             which=jnp.where(is_event, found.which, stop.which).astype(jnp.int32),
@@ -165,6 +177,7 @@ def look_within(
         found.bracketing._replace(active=searches),
         found.grazes,
         doubted,
+        lax.stop_gradient(part),
     )
 
 
@@ -200,11 +213,11 @@ def land(
 
     def goes_on() -> Landing:
         shorter = memory._replace(
-            h=jnp.where(seen.doubted, LESS * lax.stop_gradient(h), memory.h),
+            h=jnp.where(seen.part < 1, seen.part * lax.stop_gradient(h), memory.h),
             limited=memory.limited + seen.doubted,
             free=jnp.where(seen.doubted, 0, memory.free),
         )
-        stays = seen.bracketing.active | seen.doubted
+        stays = seen.bracketing.active | (seen.part < 1)
         kept = jax.tree.map(lambda a, b: jnp.where(stays, a, b), shorter, made.memory)
         within = (made.dense, h) if forward else None
         return plain._replace(memory=kept, d=row.d, converged=jnp.array(True), within=within)
@@ -255,7 +268,8 @@ def after(
     near = happened & (t - state.last < NEAR * span)
     chattering = jnp.where(happened, jnp.where(near, state.chattering + 1, 0), state.chattering)
     last = jnp.where(happened, lax.stop_gradient(t), state.last)
-    return EventState(d, log, chattering.astype(jnp.int32), last, seen.bracketing, deadband)
+    peeked = (seen.part < 1) & ~seen.doubted | (state.peeked & ~seen.ok)
+    return EventState(d, log, chattering.astype(jnp.int32), last, seen.bracketing, deadband, peeked)
 
 
 def _numbers(

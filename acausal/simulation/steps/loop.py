@@ -212,89 +212,42 @@ def advance(
         carry: tuple[LoopState, Any, Row | None], runs: Array
     ) -> tuple[LoopState, Any, Row | None]:
         c, saved, rows = carry
-        stop = between_events.Stop(stop_at(problem, c.ahead), kinds[c.ahead], c.ahead)
-        held = problem.held(c.d, stop.t)
+        aim = _aimed(method, problem, c, kinds[c.ahead], forward=forward)
+        made: Attempt = method.attempt(aim.held, c.memory, c.t, aim.h)
+        ok, stop, seen = made.accepted, aim.stop, None
         if c.events is not None:
-            stop = between_events.sooner(held, c.t, c.x, stop)
-        proposed, longest = lax.stop_gradient(c.memory.h), jnp.inf
-        if problem.field.has_edges:
-            known = held.ahead(c.t)
-            held = held.sided(c.t, jnp.minimum(known.jump, known.bend))
-            stop, longest = _edge(held, known, stop), known.longest
-        moved = None
-        if (
-            problem.field.has_edges and c.events is None
-        ):  # the steps stay where they are: see `_begun_again`
-            at_edge = (stop.kind == BEND) | (stop.kind == EDGE)
-            fixed = jnp.where(at_edge, lax.stop_gradient(stop.t), stop.t)
-            moved, stop = stop.t - fixed if forward else None, stop._replace(t=fixed)
-        by_wave, by_span = jnp.array(False), jnp.array(False)
-        if problem.max_step is not None:
-            by_span = (problem.max_step < proposed) & (problem.max_step < longest)
-            longest = jnp.minimum(longest, problem.max_step)
-        if problem.field.has_edges or problem.max_step is not None:
-            by_wave = (longest < proposed) & ~by_span
-            shorter = jnp.minimum(proposed, longest).astype(proposed.dtype)
-            proposed = lax.stop_gradient(shorter if method.chooses else proposed)
-        left = stop.t - c.t
-        to_stop = proposed * LEFT >= left
-        h = jnp.where(to_stop, left, proposed)
-        if c.events is not None and not problem.watched.timed.all():
-            bracketing = c.events.bracketing
-            h, to_stop = jnp.where(bracketing.active, bracketing.h, h), to_stop & ~bracketing.active
-        made: Attempt = method.attempt(held, c.memory, c.t, h)
-        stop = stop._replace(kind=jnp.where(to_stop, stop.kind, FREE))
-        ok, seen = made.accepted, None
-        if c.events is not None:
-            seen = between_events.look_within(method, held, c.events, made, c.t, h, stop)
+            seen = between_events.look_within(method, aim.held, c.events, made, c.t, aim.h, stop)
             ok, stop = seen.ok, seen.stop
-        h_now = lax.stop_gradient(h)
-        row = Row(c.t, h_now, stop.kind, stop.which, c.next, c.ahead, made.x, made.row)
+        row = Row(
+            c.t, lax.stop_gradient(aim.h), stop.kind, stop.which, c.next, c.ahead, made.x, made.row
+        )
         if c.events is not None:
             row = row._replace(x=c.x, d=c.events.d, band=stop.band)
-        t = jnp.where(ok, jnp.where(to_stop, stop.t, c.t + h), c.t)
-        landing = Landing(t, jnp.where(ok, made.x, c.x), made.memory, Counts.of())
         begins = RESTART if seen is not None else EDGE
         happens = ok & (stop.kind >= begins) & runs
+        t = jnp.where(ok, jnp.where(aim.to_stop, stop.t, c.t + aim.h), c.t)
+        landing = Landing(t, jnp.where(ok, made.x, c.x), made.memory, Counts.of())
         if seen is not None:
             landing = between_events.land(
-                method, problem, c.memory, row, made, h, seen, landing, happens, forward=forward
+                method, problem, c.memory, row, made, aim.h, seen, landing, happens, forward=forward
             )
         elif len(problem.breaks) or problem.field.has_edges:
-            landing = cond_any(
-                happens, lambda: _begun_again(method, problem, row, landing, moved), lambda: landing
-            )
-        dense, length = landing.within or (made.dense, h)
+            begun = partial(_begun_again, method, problem, row, landing, aim.moved)
+            landing = cond_any(happens, begun, lambda: landing)
+        dense, length = landing.within or (made.dense, aim.h)
         between = partial(method.between, dense, c.t, length)
         saved, following = _save(between, problem.ts, saved, c, landing.t, happens, ok & runs)
         if rows is not None:
             k = jnp.where(ok & runs, c.counts.steps - before, len(rows.t))  # beyond: dropped
             row = row._replace(next=following)
             rows = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), rows, row)
-        t, x, memory = landing.t, landing.x, landing.memory
-        at_break = ok & to_stop & (t >= stop_at(problem, c.ahead))
+        at_break = ok & aim.to_stop & (landing.t >= stop_at(problem, c.ahead))
         ahead = (c.ahead + (at_break & (c.ahead < len(problem.breaks)))).astype(jnp.int32)
         searching = jnp.array(False) if seen is None else seen.bracketing.active
-        counts = c.counts.plus(made.counts).plus(landing.cost)
-        counts = counts.plus(
-            Counts.of(steps=ok, rejected=~ok & ~searching, searches=~ok & searching)
-        )
-        made_of = counts.steps + counts.rejected
-        if problem.field.has_edges:
-            at_edge = ok & ((row.kind == BEND) | (row.kind == EDGE))
-            counts = counts.plus(Counts.of(edges=at_edge))
-            made_of = jnp.maximum(made_of - EDGE_STEPS * counts.edges, made_of // EDGE_STEPS)
-        if problem.field.has_edges or problem.max_step is not None:
-            free = ok & ~to_stop
-            counts = counts.plus(Counts.of(by_wave=free & by_wave, by_span=free & by_span))
-        why = jnp.where(made_of >= problem.max_steps, EXHAUSTED, -1)
-        if problem.max_tries is not None:
-            tries = counts.steps + counts.rejected + counts.searches
-            why = jnp.where(tries >= problem.max_tries, EXHAUSTED, why)
-        why = jnp.where(~ok & ~searching & (c.t + memory.h <= c.t), TOO_SHORT, why)
-        reached, events = t >= problem.end, None
-        if seen is not None:
-            assert c.events is not None
+        counts = _counted(problem, c.counts, aim, made, landing, row, ok, searching)
+        why = _why(problem, c, counts, ok | searching, landing)
+        reached, events = landing.t >= problem.end, None
+        if c.events is not None and seen is not None:
             events = between_events.after(problem, c.events, row, made, seen, landing, happens)
             why = jnp.where(events.chattering >= between_events.CHATTERING, CHATTERS, why)
             why = jnp.where(landing.converged, why, NOT_CONVERGED)
@@ -303,7 +256,9 @@ def advance(
             is_stiff = made.stiff if seen is None else made.stiff & ~happens
             why = jnp.where(is_stiff, STIFF, why)
         why = jnp.where(reached, REACHED, why).astype(jnp.int32)
-        after = LoopState(t, x, following, ahead, memory, why, counts, events)
+        after = LoopState(
+            landing.t, landing.x, following, ahead, landing.memory, why, counts, events
+        )
         unchanged = c
         if c.events is not None and events is not None:  # the log does not grow where a run is over
             unchanged = c._replace(events=c.events._replace(log=events.log))
@@ -311,6 +266,94 @@ def advance(
         return after, saved, rows
 
     return while_any(goes_on, body, (progress, saved, rows))
+
+
+class Aim(NamedTuple):
+    """What the next step is to be.
+
+    Attributes:
+        held: the problem up to where the step ends. stop: where it ends, and why there.
+        h: its length. to_stop: whether it goes up to a time at which steps must end.
+        by_wave, by_span: whether a sine of time, or `max_step`, makes it shorter than its error would.
+        moved: zero, with the derivative of an edge's time, at which the step ends; None where nobody asks for it.
+    """
+
+    held: Integration
+    stop: between_events.Stop
+    h: Float[Array, ""]
+    to_stop: Bool[Array, ""]
+    by_wave: Bool[Array, ""]
+    by_span: Bool[Array, ""]
+    moved: Array | None
+
+
+def _aimed(method: Any, problem: Integration, c: LoopState, kind: Array, *, forward: bool) -> Aim:
+    """The next step: as long as its error, edges, breaks, known events and the search for one allow."""
+    stop = between_events.Stop(stop_at(problem, c.ahead), kind, c.ahead)
+    held = problem.held(c.d, stop.t)
+    if c.events is not None:
+        stop = between_events.sooner(held, c.t, c.x, stop)
+    proposed, longest, moved = lax.stop_gradient(c.memory.h), jnp.inf, None
+    has_edges = problem.field.has_edges
+    if has_edges:
+        known = held.ahead(c.t)
+        held = held.sided(c.t, jnp.minimum(known.jump, known.bend))
+        stop, longest = _edge(held, known, stop), known.longest
+    if has_edges and c.events is None:  # the steps stay where they are: see `_begun_again`
+        at_edge = (stop.kind == BEND) | (stop.kind == EDGE)
+        fixed = jnp.where(at_edge, lax.stop_gradient(stop.t), stop.t)
+        moved, stop = stop.t - fixed if forward else None, stop._replace(t=fixed)
+    by_wave, by_span = jnp.array(False), jnp.array(False)
+    if problem.max_step is not None:
+        by_span = (problem.max_step < proposed) & (problem.max_step < longest)
+        longest = jnp.minimum(longest, problem.max_step)
+    if has_edges or problem.max_step is not None:
+        by_wave = (longest < proposed) & ~by_span
+        shorter = jnp.minimum(proposed, longest).astype(proposed.dtype)
+        proposed = lax.stop_gradient(shorter if method.chooses else proposed)
+    left = stop.t - c.t
+    to_stop = proposed * LEFT >= left
+    h = jnp.where(to_stop, left, proposed)
+    if c.events is not None and not problem.watched.timed.all():
+        bracketing = c.events.bracketing
+        h, to_stop = jnp.where(bracketing.active, bracketing.h, h), to_stop & ~bracketing.active
+    stop = stop._replace(kind=jnp.where(to_stop, stop.kind, FREE))
+    return Aim(held, stop, h, to_stop, by_wave, by_span, moved)
+
+
+def _counted(
+    problem: Integration,
+    counts: Counts,
+    aim: Aim,
+    made: Attempt,
+    landing: Landing,
+    row: Row,
+    ok: Array,
+    searching: Array,
+) -> Counts:
+    """What the run has cost with this step."""
+    counts = counts.plus(made.counts).plus(landing.cost)
+    counts = counts.plus(Counts.of(steps=ok, rejected=~ok & ~searching, searches=~ok & searching))
+    if problem.field.has_edges:
+        counts = counts.plus(Counts.of(edges=ok & ((row.kind == BEND) | (row.kind == EDGE))))
+    if problem.field.has_edges or problem.max_step is not None:
+        free = ok & ~aim.to_stop
+        counts = counts.plus(Counts.of(by_wave=free & aim.by_wave, by_span=free & aim.by_span))
+    return counts
+
+
+def _why(
+    problem: Integration, c: LoopState, counts: Counts, goes_on: Array, landing: Landing
+) -> Int[Array, ""]:
+    """Why a run would stop behind a step: it has made too many, or they are too short; -1 if it goes on."""
+    made = counts.steps + counts.rejected
+    if problem.field.has_edges:
+        made = jnp.maximum(made - EDGE_STEPS * counts.edges, made // EDGE_STEPS)
+    why = jnp.where(made >= problem.max_steps, EXHAUSTED, -1)
+    if problem.max_tries is not None:
+        tries = counts.steps + counts.rejected + counts.searches
+        why = jnp.where(tries >= problem.max_tries, EXHAUSTED, why)
+    return jnp.where(~goes_on & (c.t + landing.memory.h <= c.t), TOO_SHORT, why)
 
 
 def row_like(method: Any, problem: Integration, progress: LoopState) -> Row:

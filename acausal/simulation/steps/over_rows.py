@@ -85,14 +85,18 @@ class Clock(RightHandSide):
 
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """The next of these times, by the clock; within a row, as another run may begin behind it."""
-        row = self._row(t + apart)
-        shift = self.steps.t[row] - self.edges[row]
+        row, shift = self._row(t + apart), self.shift(t + apart)
         found = self.system.edges.ahead(self._packed(row), t + shift, apart, self.d)
         jump = found.jump - shift
         if self.steps.parts is not None:
             cuts = self.edges[row] + self.steps.parts.cuts[row] * self._length(row)
             jump = jnp.minimum(jump, jnp.min(jnp.where(cuts > t + apart, cuts, jnp.inf)))
         return Ahead(jump, found.bend - shift, found.longest)
+
+    def shift(self, t: Array) -> Array:
+        """The time of the records less that of the clock."""
+        row = self._row(t)
+        return self.steps.t[row] - self.edges[row]
 
     def _row(self, t: Array) -> Array:
         """In which row a time lies."""
@@ -143,7 +147,8 @@ def integrate_in_steps(
     """Integrate the model over some rows. Pure: trace, differentiate and map it.
 
     Arguments:
-        system, start, substeps, outputs, direct, runs: as for `fixed_steps.integrate`.
+        system, start, substeps, outputs, direct, runs: as for `fixed_steps.integrate`. Discrete variables begin as
+            ``start`` says, else as agrees with the states.
         steps: the n rows and their inputs; steps end at each where the model has inputs, or events.
         solver: adaptive steps; or, for a model with events, a scheme of fixed ones.
         tries: so many steps of given length that a row takes on average at most, those that only search for the instant
@@ -153,7 +158,9 @@ def integrate_in_steps(
         States and outputs at the rows' starts, and the state at the end; NaN from where a step cannot be made.
     """
     events, dtype = system.events, start.x.dtype
-    d0 = None if events is None else system.modes(start).d
+    d0 = None
+    if events is not None:
+        d0 = system.modes(start).d if start.d is None else start.d
     clock = Clock.of(system, start.packed, steps, runs).with_discrete(d0)
     edges, n = clock.edges, len(steps.t)
     restarts = None if runs is None else runs.restarts
@@ -205,12 +212,12 @@ def integrate_in_steps(
         x = jnp.where(restarts.begins[:, None], restarts.first, x)
     end = jnp.where(found.why == REACHED, found.x, jnp.nan)
     if not outputs:
-        return Integrated(x, None, end, found.log)
+        return Integrated(x, None, end, found.log, found.d)
 
     def read(at: Array, x: Array, d: Array | None) -> Array:
         return system.read(tuple(outputs), clock.with_discrete(d).at(at).values(x))
 
-    return Integrated(x, jax.vmap(read)(edges[:-1], x, d), end, found.log)
+    return Integrated(x, jax.vmap(read)(edges[:-1], x, d), end, found.log, found.d)
 
 
 def _divided(edges: Float[Array, " n_1"], substeps: int) -> Float[Array, " n_breaks"]:

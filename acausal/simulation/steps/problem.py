@@ -11,7 +11,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal.codegen import Field
-from acausal.events import Ahead, Events
+from acausal.events import Ahead, Due, Events, due
 from acausal.simulation.newton import Tolerances
 
 SIDE = 16.0
@@ -56,6 +56,15 @@ class RightHandSide(eqx.Module):
     def at(self, t: Array) -> Field:
         """It at one time, as a function of the states."""
 
+    def shift(self, t: Array) -> Array:
+        """The model's time less the one that it is asked by."""
+        return jnp.zeros_like(t)
+
+    def due(self, events: Events, t: Array, x: Float[Array, " n_states"]) -> Due:
+        """When conditions change whose time is known."""
+        found = due(events, self.at(t).values(x))
+        return found._replace(t=found.t - self.shift(t))
+
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
         return self.at(t)(x)
@@ -76,6 +85,10 @@ class Sided(RightHandSide):
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """As the whole."""
         return self.field.ahead(t, apart)
+
+    def shift(self, t: Array) -> Array:
+        """As of the whole."""
+        return self.field.shift(t)
 
     def at(self, t: Array) -> Field:
         """It at one time; that is moved by rounding errors only, so its derivative stays."""

@@ -12,7 +12,7 @@ from jaxtyping import Array, Float, Int
 
 from acausal._jax import without_derivatives
 from acausal.codegen import Values
-from acausal.events import After, Rates, due, fire, guards, guards_and_rates
+from acausal.events import After, Rates, fire, guards, guards_and_rates
 from acausal.simulation.steps.problem import Integration
 
 FREE, STOP, BEND, EDGE, RESTART, JUMP, TIMED, STATE = range(8)
@@ -126,7 +126,7 @@ def reach(
         return fixed + moved_by(row, condition, (t + fixed, end), (jnp.ones_like(fixed), by_h[0]))
 
     def to_its_time() -> Array:
-        return chosen(due(events, field.at(t).values(x)).t, row.which) - t
+        return chosen(field.due(events, t, x).t, row.which) - t
 
     timed = to_its_time if events.timed.any() else lambda: fixed
     changes = where_it_changes if not events.timed.all() else lambda: fixed

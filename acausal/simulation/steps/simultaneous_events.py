@@ -14,7 +14,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.events import After, Rates, due, fire, guards
+from acausal.events import After, Rates, fire, guards
 from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.rows import Reach, Row, chosen, moved_by, rates_at, values_at
 
@@ -89,7 +89,7 @@ def until(
 
     h = moved_by(row, number, (t, x), (fixed[1], fixed[0]))
     if events.timed.any():
-        its_time = chosen(due(events, field.at(t).values(x)).t, guard)
+        its_time = chosen(field.due(events, t, x).t, guard)
         h = jnp.where(jnp.asarray(events.timed)[guard], its_time - t, h)
     h = h - lax.stop_gradient(h)
     return t + h, x + fixed[0] * h

@@ -1,48 +1,15 @@
-"""Confidence: how well the record determines learned laws and parameters.
-
-A law may change by small bumps over the range of its argument in training; trained parameters may change, too, and so
-may what each record has for itself: a trained initial state, parameters of its own. The sensitivity of the whole
-simulation to all of them gives the Fisher information, whose inverse is their covariance: a Laplace approximation in
-the space of functions, independent of the number of weights of a network. It does not resolve details of a law that are
-narrower than a bump: half a standard deviation of its input, less where the learned law is steep. Where the records ask
-for another law, as after a training that has not come to its end, the band counts how far that is, too. The changes
-keep what the law promises: zero at zero, odd or even, and bands stay where the sign is promised. Samples with
-correlated residuals count for less than one each.
-"""
+"""Confidence: what is known of learned laws and parameters, and what it says in words."""
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
+from itertools import starmap
 
-import jax
-import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Bool, Float
 
-from acausal._jax import compiled, value_and_jacobian
-from acausal.errors import TrainingError
-from acausal.networks import bounds_of, kept_promises, law_at, output_scale
-from acausal.training.objective.error_laws import LogLikelihood
-from acausal.training.objective.prior import LawPrior, Prior
-from acausal.training.objective.problem import Problem
-from acausal.training.objective.records import Records
-from acausal.training.objective.trainable import Trainable
-from acausal.training.uncertainty.bumps import (
-    Bumped,
-    Network,
-    bumped_law,
-    bumps_at,
-    split,
-    with_changes,
-)
+from acausal.training.objective.prior import Prior
 from acausal.training.uncertainty.confidence_view import confidence_view
-from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
-from acausal.training.uncertainty.residuals import correlation_time, unexplained
-from acausal.training.uncertainty.step_error import move, step_error
-from acausal.training.uncertainty.tangents import correlation_with, law_directions
 
 BAND_POINTS = 201
 """Points of a band over the argument of a law."""
@@ -53,26 +20,14 @@ INDISTINGUISHABLE = 0.98
 TAKEN = 0.999
 """A law can take any part of a parameter if the effects of both have a correlation above this."""
 
-UNKNOWN = 0.9
-"""The data say nothing about a parameter whose standard deviation is above this part of the prior one."""
-
 CORRELATED = 2.0
 """Residuals are called correlated if more samples than this are worth one independent sample."""
-
-POINTS_EACH = 4
-"""Points for each bump at which a later training compares a law with what is known."""
 
 BAD = 0.05
 """Residuals are bad if they leave more than this part of a target unexplained beside noise."""
 
 MOVED = 1.0
 """So many standard deviations are too much to move by the error of the integration's steps."""
-
-LEVELS = np.linspace(0.0, 1.0, 41)
-"""Quantiles of a law's argument at which its deviation is taken."""
-
-LEAST_NOISE = 1e-12
-"""The smallest noise that is considered possible, relative to a target's standard deviation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,304 +153,20 @@ class Confidence:
         return bad
 
     def __repr__(self) -> str:
-        return "\n".join(
-            ("Confidence of " + ", ".join((*self.laws, *self.parameters)), *self.summary())
-        )
+        head = "Confidence of " + ", ".join((*self.laws, *self.parameters))
+        return "\n".join((head, *starmap(_law_known, self.laws.items()), *self.summary()))
 
 
-def confidence(
-    problem: Problem,
-    trainable: Trainable,
-    seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
-) -> Confidence:
-    """How well records determine the laws and parameters that were trained on them.
-
-    Residuals that are correlated over τ neighbouring samples have at low frequencies τ times the spectrum of white
-    noise, so that each sample counts 1/τ.
-
-    Arguments:
-        problem: what was trained.
-        trainable: its result.
-        seen: by network, the arguments it was called with over the records.
-
-    Raises:
-        TrainingError: if the model diverges over a record.
-    """
-    params = problem.assemble(trainable)
-    names, laws = problem.modifiers.names, problem.networks
-    bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
-    heights = [np.full(len(bumped[n].centres), _size(params[n], seen[n])) for n in laws]
-    prior, own = _prior(problem, params), _own_deviations(problem, trainable)
-    ways = [law_directions(params[n], seen[n]) if names else (0, None) for n in laws]
-    deviations = np.concatenate([*heights, prior])
-    count, alone = len(deviations), len(own)
-    ends = np.cumsum([sum(map(len, heights)), len(names), alone]).tolist()
-    bounds = np.cumsum([0, *(n for n, _ in ways)]).tolist()
-
-    def changed(z: Float[Array, " n"]) -> tuple[Trainable, dict[str, Any]]:
-        changes, own, along = jnp.split(scale * z, ends[1:])
-        nets = {
-            n: law if move is None else replace(law, net=move(along[a:b]))
-            for (n, law), (_, move), (a, b) in zip(
-                bumped.items(), ways, itertools.pairwise(bounds), strict=True
-            )
-        }
-        new = with_changes(problem, params, nets, changes)
-        return _moved(problem, trainable, own), new
-
-    scale = jnp.asarray(np.concatenate([deviations, own, np.ones(bounds[-1])]))
-    left, jacobian = _sensitivity(problem, changed, len(scale))
-    if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
-        raise TrainingError(
-            "The trained model diverges over the record; its confidence cannot be computed."
-        )
-    counts = np.asarray(problem.records.weight) > 0
-    n = np.maximum(counts.sum(axis=0), 1)
-    noise, factor = _noise(problem, left)
-    alike = _alike(problem.records, factor * left, counts)
-    least = np.maximum(noise, LEAST_NOISE * np.asarray(problem.records.sigma)) * np.sqrt(alike)
-    sensitivity = np.where(counts[:, :, None], jacobian * (factor / least)[:, :, None], 0.0)
-    weighted = sensitivity[..., :count]
-    along = sensitivity[..., count + alone :].reshape(left.size, bounds[-1])
-    blocks = [
-        RecordJacobian(*(s.reshape(w.shape[0] * w.shape[1], s.shape[-1]) for s in (w, o)))
-        for w, o in zip(
-            *(
-                np.split(s, np.asarray(problem.records.first)[1:])
-                for s in (weighted, sensitivity[..., count : count + alone])
-            ),
-            strict=True,
-        )
-    ]
-    error = np.where(counts, step_error(problem, trainable) * (factor / least), 0.0)
-    rest = np.where(counts, left * (factor / least), 0.0)
-    onward = deviations * move(blocks, rest.ravel())[0]
-    blocks += _earlier(problem, changed, len(scale), blocks[0])
-    samples = float(np.sum(n / alike)) + sum(len(b.common) for b in blocks[problem.records.count :])
-    found = posterior_covariance(blocks, samples)
-    weighted = weighted.reshape(left.size, count)
-    covariance = found.common * np.outer(deviations, deviations)
-    between = covariance[ends[0] : ends[1], ends[0] : ends[1]]
-    sigma = np.sqrt(np.diag(between))
-    each = np.sqrt([np.diag(c) for c in found.own[: problem.records.count]]) * own
-    with_laws = {
-        name: {
-            law: correlation_with(weighted[:, ends[0] + i], along[:, a:b])
-            for law, (a, b) in zip(laws, itertools.pairwise(bounds), strict=True)
-        }
-        for i, name in enumerate(names)
-    }
-    taken = np.array([any(v > TAKEN for v in with_laws[n].values()) for n in names], dtype=bool)
-    known = np.where(taken, np.maximum(sigma, prior), sigma)
-    parts, _ = split(bumped, np.arange(count))
-    bands = {
-        n: _band(params[n], bumped[n], onward[own], covariance[np.ix_(own, own)], seen[n])
-        for n, own in parts.items()
-    }
-    return Confidence(
-        bands,
-        dict(zip(names, known.tolist(), strict=True)),
-        between / np.maximum(np.outer(sigma, sigma), 1e-300),
-        with_laws,
-        {n: each[:, i] for i, n in enumerate(problem.per_record.names)},
-        dict(zip(problem.targets, noise.tolist(), strict=True)),
-        dict(zip(problem.targets, alike.tolist(), strict=True)),
-        _unexplained(problem, left),
-        move(blocks[: problem.records.count], error.ravel())[1],
-        _about(problem, trainable, sigma, prior, taken),
-        _as_prior(
-            problem, params, bumped, seen, found.root / deviations, float(n @ alike / n.sum())
-        ),
-    )
-
-
-def _size(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"]) -> float:
-    """How much a law may change, as far as nothing else is known: by its scale, or by its own deviation."""
-    law = np.asarray(law_at(network, np.quantile(seen[:, 0], LEVELS), seen[:, 1:].mean(axis=0)))
-    return max(output_scale(network), float(np.std(law)))
-
-
-def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> dict[str, float]:
-    """By target, what its residuals have beside white noise, relative to its deviation."""
-    records = problem.records
-    known = np.where(np.asarray(records.weight) > 0, left, np.nan)
-    pieces = [known[records.rows_of(k)] for k in range(records.count)]
-    return {
-        name: unexplained([piece[:, i] for piece in pieces], float(records.sigma[i]))
-        for i, name in enumerate(problem.targets)
-    }
-
-
-def _earlier(
-    problem: Problem,
-    changed: Callable[[Float[Array, " n"]], tuple[Trainable, dict[str, Any]]],
-    count: int,
-    like: RecordJacobian,
-) -> list[RecordJacobian]:
-    """What the training knew before, as one more record; none if that is nothing."""
-    if (prior := problem.prior) is None:
-        return []
-    jacobian = jax.jit(jax.jacfwd(lambda z: prior.misfit(changed(z)[1])))(jnp.zeros(count))
-    rows = np.asarray(jacobian)[:, : like.common.shape[1]]
-    return [RecordJacobian(rows, np.zeros((len(rows), like.own.shape[1])))]
-
-
-def _as_prior(
-    problem: Problem,
-    params: dict[str, Any],
-    bumped: dict[str, Bumped],
-    seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
-    root: Float[np.ndarray, "n n"],
-    alike: float,
-) -> Prior:
-    """What is known now, as the prior of a later training; ``root`` as of `Prior`."""
-
-    def one(name: str) -> LawPrior:
-        points = bumped[name].points(POINTS_EACH * len(bumped[name].centres))
-        rest = jnp.asarray(seen[name][:, 1:].mean(axis=0))
-        heights = np.linalg.pinv(np.asarray(bumps_at(bumped[name], points)))
-        return LawPrior(points, rest, law_at(params[name], points, rest), jnp.asarray(heights))
-
-    moved = problem.modifiers
-    values = [float(params[n]) for n in moved.names]
-    scales = [v if kind.unit else 1.0 for v, kind in zip(values, moved.kinds, strict=True)]
-    laws = {n: one(n) for n in problem.networks}
-    numbers = (jnp.asarray(a, float) for a in (values, scales, root, alike))
-    return Prior(laws, moved.names, *numbers)
-
-
-def _about(
-    problem: Problem,
-    trainable: Trainable,
-    sigma: Float[np.ndarray, " n_parameters"],
-    prior: Float[np.ndarray, " n_parameters"],
-    taken: Bool[np.ndarray, " n_parameters"],
-) -> tuple[str, ...]:
-    """How well each parameter is known, one sentence each; `summary` speaks of those that a law can take."""
-    at_limit = problem.modifiers.at_limit(problem.changes(trainable), problem.unit)
-
-    def one(name: str, sigma: float, prior: float) -> str:
-        if name in at_limit:
-            return f"{at_limit[name]} Its standard deviation cannot be given."
-        if sigma > UNKNOWN * prior:
-            return f"The data say nothing about '{name}'; leave it as it was, or measure what depends on it."
-        deviation = problem.modifiers.written(name, sigma, ".2g", problem.unit(name))
-        return f"'{name}' is known to ±{deviation} (one sigma)."
-
-    rows = zip(problem.modifiers.names, sigma.tolist(), prior.tolist(), strict=True)
-    return tuple(
-        one(*row)
-        for row, is_taken in zip(rows, taken, strict=True)
-        if row[0] in at_limit or not is_taken
+def _law_known(name: str, band: Band) -> str:
+    """How well a law is known, in a sentence."""
+    doubt = 200 * band.sigma / (np.ptp(band.law) or 1.0)
+    worst = int(np.argmax(doubt))
+    return (
+        f"'{name}' is known to {np.median(doubt):.2g} % of its range, at worst to {doubt[worst]:.2g} % near "
+        f"{band.x[worst]:.2g} (two sigma)."
     )
 
 
 def _digits(correlation: float) -> str:
     """A correlation near 1 that does not read as 1 itself."""
     return f"{min(correlation, 0.9999):.4f}"
-
-
-def _prior(problem: Problem, params: dict[str, Any]) -> Float[np.ndarray, " n_parameters"]:
-    """The prior standard deviations of parameters: from where they began or ended, whichever is larger."""
-    rows = zip(
-        problem.modifiers.names, problem.modifiers.kinds, problem.modifiers.values, strict=True
-    )
-    return np.array(
-        [max(kind.prior_deviation(float(v)) for v in (start, params[n])) for n, kind, start in rows]
-    )
-
-
-def _own_deviations(problem: Problem, trainable: Trainable) -> Float[np.ndarray, " n_own"]:
-    """The prior standard deviations of what each record has for itself: its parameters, and a trained initial state."""
-    found = (trainable.states, trainable.starts)
-    states = sum(a.shape[1] for a in found if a is not None)
-    return np.concatenate([np.asarray(problem.per_record.scale), np.ones(states)])
-
-
-def _moved(problem: Problem, trainable: Trainable, own: Float[Array, " n_own"]) -> Trainable:
-    """The same with other parameters and initial states of each record: the same change for all records.
-
-    A record's predictions depend on its own alone, so that one direction gives the derivatives for all records.
-    """
-    names, scale = problem.per_record.names, problem.per_record.scale
-    per_record = {n: trainable.per_record[n] + own[i] / scale[i] for i, n in enumerate(names)}
-    states, starts = trainable.states, trainable.starts
-    moves = own[len(names) :]
-    if starts is not None:
-        starts, moves = starts + moves[: starts.shape[1]], moves[starts.shape[1] :]
-    if states is not None and problem.shooting is not None:
-        all_first = len(states) == problem.records.count
-        first = jnp.arange(len(states)) if all_first else problem.shooting.first
-        states = states.at[first].add(moves)
-    return replace(trainable, per_record=per_record, states=states, starts=starts)
-
-
-def _noise(
-    problem: Problem, left: Float[np.ndarray, "N n_targets"]
-) -> tuple[Float[np.ndarray, " n_targets"], Float[np.ndarray, "N n_targets"]]:
-    """The noise of every target, and the root of how much each residual counts: less for an outlier."""
-    records = problem.records
-    if not isinstance(problem.loss, LogLikelihood):
-        count = np.maximum(np.sum(np.asarray(records.weight) > 0, axis=0), 1)
-        return np.sqrt(np.sum(left**2, axis=0) / count), np.ones_like(left)
-    found = problem.loss.levels(records.y - left, records.y, records.sigma, records.weight)
-    return np.asarray(found), np.sqrt(problem.loss.law.weight(jnp.asarray(left) / found))
-
-
-def _alike(
-    records: Records,
-    left: Float[np.ndarray, "N n_targets"],
-    counts: Bool[np.ndarray, "N n_targets"],
-) -> Float[np.ndarray, " n_targets"]:
-    """By target, how many neighbouring residuals are worth one independent sample: the mean over all records."""
-    of = np.asarray(records.of)
-
-    def one(column: Float[np.ndarray, " N"], count: Bool[np.ndarray, " N"]) -> float:
-        parts = [column[count & (of == k)] for k in range(records.count)]
-        times = [(correlation_time(part), len(part)) for part in parts if len(part) > 1]
-        total = sum(n for _, n in times)
-        return sum(time * n for time, n in times) / total if total else 1.0
-
-    return np.array([one(*pair) for pair in zip(left.T, counts.T, strict=True)])
-
-
-def _sensitivity(
-    problem: Problem,
-    changed: Callable[[Float[Array, " n"]], tuple[Trainable, dict[str, Any]]],
-    count: int,
-) -> tuple[Float[np.ndarray, "N n_targets"], Float[np.ndarray, "N n_targets n"]]:
-    """The residuals, and the Jacobian of the predictions."""
-
-    @compiled
-    def run(problem: Problem) -> tuple[Array, Array]:
-        def predicted(z: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
-            return problem.predict(*changed(z))
-
-        at, jacobian = value_and_jacobian(predicted, jnp.zeros(count), axis=-1)
-        return problem.residuals(at), jacobian
-
-    left, jacobian = run(problem)
-    return np.asarray(left), np.asarray(jacobian)
-
-
-def _band(
-    network: Network,
-    bumped: Bumped,
-    onward: Float[np.ndarray, " n_bumps"],
-    covariance: Float[np.ndarray, "n_bumps n_bumps"],
-    seen: Float[np.ndarray, "n_calls n_arguments"],
-) -> Band:
-    x = np.asarray(bumped.points(BAND_POINTS))
-    rest = seen[:, 1:].mean(axis=0)
-    shapes = np.asarray(bumps_at(bumped, x))
-    variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes) + (shapes @ onward) ** 2
-    kept = kept_promises(network)
-    sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0
-    return Band(
-        x,
-        np.asarray(law_at(network, x, rest)),
-        np.sqrt(np.maximum(variance, 0.0)),
-        1.0 if "positive" in kept else sign,
-        bounds_of(network),
-        int("monotone" in kept),
-    )

@@ -84,6 +84,9 @@ class Residuals:
         """The part of the target's deviation that is left beside white noise: what a better model could explain."""
         return float(np.sqrt(max(self.share**2 - self.noise**2, 0.0)))
 
+    def __repr__(self) -> str:
+        return f"Residuals of {self.summary()}"
+
     def _grade(self, why: str) -> str:
         """How much is left to explain, and what to make of it."""
         left = f"{100 * self.unexplained:.2g} % of it"

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from tests.support.hybrid import Sampled
 
 
 class Clock(ac.Component):
@@ -63,3 +64,13 @@ def test_a_clock_does_not_stop_where_another_event_comes_first_by_rounding():
     run = ac.simulate(ac.compile(Relayed()), (0.0, 6.05), saveat=[6.05], rtol=1e-9, atol=1e-11)
     assert float(run["n"][0]) == 61
     assert any(e.after and {"on", "n"} <= e.after.keys() for e in run.events)
+
+
+@pytest.mark.slow
+def test_no_tick_is_lost_in_seconds_of_a_calendar():
+    """Few digits are left there: an instant may lie within what counts as now before it has come."""
+    system, begin = ac.compile(Sampled()), 1.7e9
+    for ticks in range(20, 40, 2):
+        run = ac.simulate(system, (begin, begin + 0.1 * ticks + 0.05))
+        assert len(run.events) == ticks
+        assert np.allclose(np.diff([e.t for e in run.events]), 0.1, atol=1e-6)

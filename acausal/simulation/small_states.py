@@ -1,0 +1,62 @@
+"""Absolute tolerances of states that stay small: currents of nanoamperes need finer ones than currents of amperes."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+
+import numpy as np
+from jaxtyping import Float
+
+from acausal._jax import known
+from acausal.errors import SimulationError, listing, user_level
+from acausal.simulation.solution import Solution
+
+ATOL = 1e-8
+"""The usual absolute tolerance, in the states' units."""
+
+SMALL, NOISE = 1e-4, 1e-13
+"""States of a unit are small if all stay below the first; below the second they are rounding."""
+
+AGAIN = 2
+"""So often a simulation is repeated, at most: with better tolerances states may turn out to be larger or smaller."""
+
+Simulated = Callable[[Float[np.ndarray, " n_states"]], Solution]
+"""A simulation, by the absolute tolerances of its states."""
+
+
+def with_small_states(simulated: Simulated, n_states: int) -> Solution:
+    """A simulation with the usual tolerances; where all states of a unit stay small, with finer ones.
+
+    Arguments:
+        simulated: makes it, or several at once. n_states: of the model.
+    """
+    atol = np.full(n_states, ATOL)
+    solution = simulated(atol)
+    for _ in range(AGAIN):
+        finer = _finer(solution)
+        if finer is None or (finer > 0.1 * atol).all():
+            break
+        small = [n for n, f, a in zip(solution.system.states, finer, atol, strict=True) if f < a]
+        try:
+            solution, atol = simulated(finer), finer
+        except SimulationError as error:
+            warnings.warn(
+                f"{listing(small, 4)}: these states stay so small that atol={ATOL:g} does not control their errors, "
+                f"and finer steps do not succeed: {error} Give atol= of the size of their errors, one for each state.",
+                stacklevel=user_level(),
+            )
+            break
+    return solution
+
+
+def _finer(solution: Solution) -> Float[np.ndarray, " n_states"] | None:
+    """The tolerances of the states of a result, relative to the largest one of their unit; None while JAX traces."""
+    x = known(solution.x)
+    if x is None or not x.size:
+        return None
+    rows = np.abs(np.asarray(x, float)).reshape(-1, x.shape[-1])
+    largest = np.nan_to_num(rows, posinf=np.inf).max(axis=0)
+    units = np.array([solution.unit(name) for name in solution.system.states])
+    size = np.array([largest[units == unit].max() for unit in units])
+    return ATOL * np.where((size > NOISE) & (size < SMALL), size, 1.0)

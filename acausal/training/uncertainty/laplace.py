@@ -1,0 +1,296 @@
+"""Confidence: how well the record determines learned laws and parameters.
+
+A law may change by small bumps over the range of its argument in training; trained parameters may change, too, and so
+may what each record has for itself: a trained initial state, parameters of its own. The sensitivity of the whole
+simulation to all of them gives the Fisher information, whose inverse is their covariance: a Laplace approximation in
+the space of functions, independent of the number of weights of a network. It does not resolve details of a law that are
+narrower than a bump: half a standard deviation of its input, less where the learned law is steep. Where the records ask
+for another law, as after a training that has not come to its end, the band counts how far that is, too. The changes
+keep what the law promises: zero at zero, odd or even, and bands stay where the sign is promised. Samples with
+correlated residuals count for less than one each.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from acausal._jax import compiled, value_and_jacobian
+from acausal.errors import TrainingError
+from acausal.networks import bounds_of, kept_promises, law_at
+from acausal.training.objective.error_laws import LogLikelihood
+from acausal.training.objective.prior import LawPrior, Prior
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.records import Records
+from acausal.training.objective.trainable import Trainable
+from acausal.training.uncertainty.bumps import bumps_at
+from acausal.training.uncertainty.changes import Changes, changes
+from acausal.training.uncertainty.confidence import BAND_POINTS, TAKEN, Band, Confidence
+from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
+from acausal.training.uncertainty.residuals import correlation_time, unexplained
+from acausal.training.uncertainty.step_error import move, step_error
+from acausal.training.uncertainty.tangents import correlation_with
+
+UNKNOWN = 0.9
+"""The data say nothing about a parameter whose standard deviation is above this part of the prior one."""
+
+POINTS_EACH = 4
+"""Points for each bump at which a later training compares a law with what is known."""
+
+LEAST_NOISE = 1e-12
+"""The smallest noise that is considered possible, relative to a target's standard deviation."""
+
+
+def confidence(
+    problem: Problem,
+    trainable: Trainable,
+    seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
+) -> Confidence:
+    """How well records determine the laws and parameters that were trained on them.
+
+    Residuals that are correlated over τ neighbouring samples have at low frequencies τ times the spectrum of white
+    noise, so that each sample counts 1/τ.
+
+    Arguments:
+        problem: what was trained.
+        trainable: its result.
+        seen: by network, the arguments it was called with over the records.
+
+    Raises:
+        TrainingError: if the model diverges over a record.
+    """
+    change = changes(problem, trainable, seen)
+    left, jacobian = _sensitivity(problem, change)
+    if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
+        raise TrainingError(
+            "The trained model diverges over the record; its confidence cannot be computed."
+        )
+    noise = _noise(problem, left)
+    effects = noise.relative(jacobian).reshape(left.size, len(change.scale))
+    ends = left.shape[1] * np.asarray(problem.records.first)[1:]
+    blocks = [
+        RecordJacobian(part[:, change.common], part[:, change.own])
+        for part in np.split(effects, ends)
+    ]
+    onward = change.deviations * move(blocks, noise.relative(left).ravel())[0]
+    error = noise.relative(step_error(problem, trainable))
+    step_move = move(blocks, error.ravel())[1]
+    earlier = _earlier(change)
+    samples = noise.samples + sum(len(b.common) for b in earlier)
+    found = posterior_covariance([*blocks, *earlier], samples)
+    covariance = found.common * np.outer(change.deviations, change.deviations)
+    between = covariance[change.parameters, change.parameters]
+    sigma = np.sqrt(np.diag(between))
+    each = np.sqrt([np.diag(c) for c in found.own[: problem.records.count]]) * change.of_record
+    with_laws = _with_laws(change, effects)
+    taken = np.array(
+        [any(v > TAKEN for v in laws.values()) for laws in with_laws.values()], dtype=bool
+    )
+    known = np.where(taken, np.maximum(sigma, change.of_parameters), sigma)
+    bands = {
+        name: _band(change, name, onward[own], covariance[np.ix_(own, own)])
+        for name, own in change.by_law(np.arange(len(onward))).items()
+    }
+    return Confidence(
+        bands,
+        dict(zip(with_laws, known.tolist(), strict=True)),
+        between / np.maximum(np.outer(sigma, sigma), 1e-300),
+        with_laws,
+        {n: each[:, i] for i, n in enumerate(problem.per_record.names)},
+        dict(zip(problem.targets, noise.size.tolist(), strict=True)),
+        dict(zip(problem.targets, noise.alike.tolist(), strict=True)),
+        _unexplained(problem, left),
+        step_move,
+        _about(change, sigma, taken),
+        _as_prior(change, found.root / change.deviations, noise.mean_alike),
+    )
+
+
+def _sensitivity(
+    problem: Problem, change: Changes
+) -> tuple[Float[np.ndarray, "N n_targets"], Float[np.ndarray, "N n_targets n"]]:
+    """The residuals, and the Jacobian of the predictions."""
+
+    @compiled
+    def run(problem: Problem) -> tuple[Array, Array]:
+        def predicted(z: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+            return problem.predict(*change(z))
+
+        at, jacobian = value_and_jacobian(predicted, jnp.zeros(len(change.scale)), axis=-1)
+        return problem.residuals(at), jacobian
+
+    left, jacobian = run(problem)
+    return np.asarray(left), np.asarray(jacobian)
+
+
+@dataclass(frozen=True, eq=False)
+class _Noise:
+    """The noise of the residuals, and what they count.
+
+    Attributes:
+        size: of every target, its standard deviation.
+        alike: by target, how many neighbouring residuals are worth one independent sample.
+        count: by target, how many residuals count, at least 1.
+        unit: 1 over the deviation that each residual counts with; 0 where it does not count.
+    """
+
+    size: Float[np.ndarray, " n_targets"]
+    alike: Float[np.ndarray, " n_targets"]
+    count: Float[np.ndarray, " n_targets"]
+    unit: Float[np.ndarray, "N n_targets"]
+
+    @property
+    def samples(self) -> float:
+        """How many independent samples all residuals are worth."""
+        return float(np.sum(self.count / self.alike))
+
+    @property
+    def mean_alike(self) -> float:
+        """How many residuals are worth one independent sample, over all targets."""
+        return float(self.count @ self.alike / self.count.sum())
+
+    def relative(
+        self, values: Float[np.ndarray, "N n_targets *n"]
+    ) -> Float[np.ndarray, "N n_targets *n"]:
+        """Changes of the predictions in standard deviations of the residuals; zero where nothing counts."""
+        unit = self.unit.reshape(*self.unit.shape, *(1,) * (values.ndim - 2))
+        return np.where(unit > 0, values * unit, 0.0)
+
+
+def _noise(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> _Noise:
+    """That of the residuals; an outlier counts less."""
+    records = problem.records
+    counts = np.asarray(records.weight) > 0
+    n = np.maximum(counts.sum(axis=0), 1)
+    size, factor = np.sqrt(np.sum(left**2, axis=0) / n), np.ones_like(left)
+    if isinstance(problem.loss, LogLikelihood):
+        size = np.asarray(
+            problem.loss.levels(records.y - left, records.y, records.sigma, records.weight)
+        )
+        factor = np.sqrt(problem.loss.law.weight(jnp.asarray(left) / size))
+    alike = _alike(records, factor * left, counts)
+    least = np.maximum(size, LEAST_NOISE * np.asarray(records.sigma)) * np.sqrt(alike)
+    return _Noise(size, alike, n, np.where(counts, factor / least, 0.0))
+
+
+def _alike(
+    records: Records,
+    left: Float[np.ndarray, "N n_targets"],
+    counts: Bool[np.ndarray, "N n_targets"],
+) -> Float[np.ndarray, " n_targets"]:
+    """By target, how many neighbouring residuals are worth one independent sample: the mean over all records."""
+    of = np.asarray(records.of)
+
+    def one(column: Float[np.ndarray, " N"], count: Bool[np.ndarray, " N"]) -> float:
+        parts = [column[count & (of == k)] for k in range(records.count)]
+        times = [(correlation_time(part), len(part)) for part in parts if len(part) > 1]
+        total = sum(n for _, n in times)
+        return sum(time * n for time, n in times) / total if total else 1.0
+
+    return np.array([one(*pair) for pair in zip(left.T, counts.T, strict=True)])
+
+
+def _earlier(change: Changes) -> list[RecordJacobian]:
+    """What the training knew before, as one more record; none if that is nothing."""
+    if (prior := change.problem.prior) is None:
+        return []
+    start = jnp.zeros(len(change.scale))
+    rows = np.asarray(jax.jit(jax.jacfwd(lambda z: prior.misfit(change(z)[1])))(start))
+    return [RecordJacobian(rows[:, change.common], np.zeros((len(rows), len(change.of_record))))]
+
+
+def _with_laws(
+    change: Changes, effects: Float[np.ndarray, "rows n"]
+) -> dict[str, dict[str, float]]:
+    """By parameter and law, the correlation of what the parameter changes with what the law's weights can change."""
+    places = range(change.parameters.start, change.parameters.stop)
+    return {
+        name: {
+            law: correlation_with(effects[:, place], effects[:, along])
+            for law, along in change.places_along.items()
+        }
+        for name, place in zip(change.problem.modifiers.names, places, strict=True)
+    }
+
+
+def _about(
+    change: Changes,
+    sigma: Float[np.ndarray, " n_parameters"],
+    taken: Bool[np.ndarray, " n_parameters"],
+) -> tuple[str, ...]:
+    """How well each parameter is known, one sentence each; `summary` speaks of those that a law can take."""
+    problem = change.problem
+    at_limit = problem.modifiers.at_limit(problem.changes(change.trainable), problem.unit)
+
+    def one(name: str, sigma: float, prior: float) -> str:
+        if name in at_limit:
+            return f"{at_limit[name]} Its standard deviation cannot be given."
+        if sigma > UNKNOWN * prior:
+            return f"The data say nothing about '{name}'; leave it as it was, or measure what depends on it."
+        deviation = problem.modifiers.written(name, sigma, ".2g", problem.unit(name))
+        return f"'{name}' is known to ±{deviation} (one sigma)."
+
+    priors = change.of_parameters.tolist()
+    rows = zip(problem.modifiers.names, sigma.tolist(), priors, strict=True)
+    return tuple(
+        one(*row)
+        for row, is_taken in zip(rows, taken, strict=True)
+        if row[0] in at_limit or not is_taken
+    )
+
+
+def _as_prior(change: Changes, root: Float[np.ndarray, "n n"], alike: float) -> Prior:
+    """What is known now, as the prior of a later training; ``root`` as of `Prior`."""
+    problem, params = change.problem, change.params
+
+    def one(name: str) -> LawPrior:
+        bumped = change.bumped[name]
+        points = bumped.points(POINTS_EACH * len(bumped.centres))
+        rest = jnp.asarray(change.seen[name][:, 1:].mean(axis=0))
+        heights = np.linalg.pinv(np.asarray(bumps_at(bumped, points)))
+        return LawPrior(points, rest, law_at(params[name], points, rest), jnp.asarray(heights))
+
+    moved = problem.modifiers
+    values = [float(params[n]) for n in moved.names]
+    scales = [v if kind.unit else 1.0 for v, kind in zip(values, moved.kinds, strict=True)]
+    laws = {n: one(n) for n in problem.networks}
+    numbers = (jnp.asarray(a, float) for a in (values, scales, root, alike))
+    return Prior(laws, moved.names, *numbers)
+
+
+def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> dict[str, float]:
+    """By target, what its residuals have beside white noise, relative to its deviation."""
+    records = problem.records
+    known = np.where(np.asarray(records.weight) > 0, left, np.nan)
+    pieces = [known[records.rows_of(k)] for k in range(records.count)]
+    return {
+        name: unexplained([piece[:, i] for piece in pieces], float(records.sigma[i]))
+        for i, name in enumerate(problem.targets)
+    }
+
+
+def _band(
+    change: Changes,
+    name: str,
+    onward: Float[np.ndarray, " n_bumps"],
+    covariance: Float[np.ndarray, "n_bumps n_bumps"],
+) -> Band:
+    network, bumped = change.params[name], change.bumped[name]
+    x = np.asarray(bumped.points(BAND_POINTS))
+    rest = change.seen[name][:, 1:].mean(axis=0)
+    shapes = np.asarray(bumps_at(bumped, x))
+    variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes) + (shapes @ onward) ** 2
+    kept = kept_promises(network)
+    sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0
+    return Band(
+        x,
+        np.asarray(law_at(network, x, rest)),
+        np.sqrt(np.maximum(variance, 0.0)),
+        1.0 if "positive" in kept else sign,
+        bounds_of(network),
+        int("monotone" in kept),
+    )

@@ -1,0 +1,57 @@
+"""Tolerances of states that stay small."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+
+
+class Cycle(ac.Component):
+    """An oscillator with a limit cycle of twice the size, beside a large state of another unit."""
+
+    size, rate = ac.Parameter(1.0), ac.Parameter(0.1, unit="1/s")
+    s = ac.Variable(start=0.0, fixed=True)
+    v = ac.Variable(start=0.0, fixed=True)
+    other = ac.Variable(unit="K", start=1.0, fixed=True)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.s), self.v)
+        yield ac.Eq(ac.der(self.v), -self.s - 0.1 * self.v * ((self.s / self.size) ** 2 - 1))
+        yield ac.Eq(ac.der(self.other), -self.rate * self.other)
+
+
+@pytest.mark.slow
+def test_small_states_are_as_exact_as_large_ones() -> None:
+    system = ac.compile(Cycle())
+    whole, small, coarse = (
+        np.asarray(
+            ac.simulate(system, 300.0, params={"size": size}, x0={"s": size, "v": 0.0}, **given)["s"]
+        ) / size
+        for size, given in ((1.0, {}), (1e-9, {}), (1e-9, {"atol": 1e-8}))
+    )  # fmt: skip
+    np.testing.assert_allclose(small, whole, atol=1e-3)
+    assert abs(abs(coarse[-100:]).max() - 2) > 0.5  # without finer tolerances
+
+
+class Two(ac.Component):
+    """A small state beside a large one of the same unit, which sets the tolerance."""
+
+    rate = ac.Parameter(1.0, unit="1/s")
+    a = ac.Variable(unit="V", start=1.0, fixed=True)
+    b = ac.Variable(unit="V", start=1e-9, fixed=True)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.a), -self.rate * self.a)
+        yield ac.Eq(ac.der(self.b), -3 * self.rate * self.b)
+
+
+@pytest.mark.slow
+def test_small_states_beside_large_ones_of_their_unit_take_no_finer_steps() -> None:
+    system = ac.compile(Two())
+    usual, given = ac.simulate(system, 2.0), ac.simulate(system, 2.0, atol=1e-8)
+    assert usual.statistics == given.statistics
