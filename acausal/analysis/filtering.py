@@ -20,6 +20,9 @@ from acausal._jax import cholesky, solve_lower, solve_upper, value_and_jacobian
 ROUNDING = 1e-13
 """What is smaller than this, relative to the variances, is rounding."""
 
+NOTHING = 1e-200
+"""The variance of what is certain, where a root is needed: far below that of any state."""
+
 Function = Callable[[Float[Array, " m"]], Float[Array, " p"]]
 
 
@@ -71,7 +74,7 @@ def by_points(function: Function, belief: Belief) -> Linear:
     """The regression line through two points for each column of a root of the covariance."""
     mean, covariance, _ = belief
     m = len(mean)
-    least = ROUNDING * jnp.maximum(jnp.diag(covariance), ROUNDING)
+    least = ROUNDING * jnp.maximum(jnp.diag(covariance), NOTHING)
     root = cholesky(covariance + jnp.diag(least))
     apart = jnp.sqrt(m) * root.T
     y = jax.vmap(function)(jnp.concatenate([mean + apart, mean - apart]))
