@@ -1,6 +1,6 @@
 """Files: paths that users give, checked; files written completely or not at all, by one process.
 
-A file that exists is replaced; `new_file` refuses it for functions with an argument ``overwrite``.
+A regular file that exists is replaced, without a question, by whatever writes.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, TextIO
 
-from acausal.errors import AcausalError, DataError, need_flag, reason, shown
+from acausal.errors import AcausalError, DataError, reason, shown
 
 try:
     import fcntl
@@ -50,21 +50,19 @@ def need_path(given: object, function: str, error: type[AcausalError] = DataErro
     return Path(text)
 
 
-def new_file(given: object, function: str, overwrite: bool, *, need_folder: bool = True) -> Path:
-    """The path of a file that may be written.
+def file_to_write(given: object, function: str, *, need_folder: bool = True) -> Path:
+    """The path of a file that is to be written, checked before what it shall hold is computed.
 
     Arguments:
         given: what the user gave. function: that was called with it, for the message.
-        overwrite: whether the file may exist. need_folder: whether its folder must.
+        need_folder: whether its folder must exist.
 
     Raises:
-        DataError: for what is no path, a folder, a path that exists, or a folder that does not.
+        DataError: for what is no path, a folder, or a file in a folder that does not exist.
     """
-    path, overwrite = need_path(given, function), need_flag(overwrite, f"{function}: overwrite")
+    path = need_path(given, function)
     if path.is_dir():
         raise DataError(f"{function}: '{path}' is a folder; give the path of a file.")
-    if path.exists() and not overwrite:
-        raise DataError(f"{function}: '{path}' exists; give another path, or overwrite=True.")
     if need_folder and not path.parent.is_dir():
         raise DataError(f"{function}: there is no folder '{path.parent}'; make it first.")
     return path

@@ -25,8 +25,6 @@ from acausal.reporting import Page, write_json
 from tests.support.oscillator import Oscillator, learned, plain
 from tests.support.paths import ROOT
 
-OVER = {"overwrite": True}
-
 
 @cache
 def run() -> ac.Solution:
@@ -53,11 +51,11 @@ WRITERS: dict[str, Callable[[Path], Any]] = {
     "report.html": lambda path: Page("Report", "x" * 100).write(path),
     "figures.json": lambda path: write_json(path, list(range(100))),
     "drawing.svg": lambda path: ac.diagram(plain()).save(path),
-    "export.c": lambda path: ac.export.c(plain(), path.parent, name="export", **OVER),
-    "export.fmu": lambda path: ac.export.fmu(plain(), path, binary=False, **OVER),
-    "net.onnx": lambda path: ac.export.onnx(learned(), path, network="extra.net", **OVER),
-    "net.mlir": lambda path: ac.export.stablehlo(learned(), path, network="extra.net", **OVER),
-    "export.mo": lambda path: ac.export.modelica(plain(), path, **OVER),
+    "export.c": lambda path: ac.export.c(plain(), path.parent, name="export"),
+    "export.fmu": lambda path: ac.export.fmu(plain(), path, binary=False),
+    "net.onnx": lambda path: ac.export.onnx(learned(), path, network="extra.net"),
+    "net.mlir": lambda path: ac.export.stablehlo(learned(), path, network="extra.net"),
+    "export.mo": lambda path: ac.export.modelica(plain(), path),
 }
 """What writes files, each by the name of one that it writes."""
 

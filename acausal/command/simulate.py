@@ -13,9 +13,8 @@ from acausal.command.arguments import (
     add_by_name,
     add_command,
     add_model,
-    add_overwrite,
     add_parameters,
-    need_new,
+    need_unread,
     number_by_name,
 )
 from acausal.command.exit_codes import UsageError
@@ -61,7 +60,6 @@ def add(parsers: Parsers) -> None:
     results.add_argument(
         "--out", metavar="FILE", help="write the variables as CSV; - to the output"
     )
-    add_overwrite(results)
     results.add_argument("--plot", metavar="FILE", help="draw them: .png, .svg or .pdf")
     add_reading(parser)
 
@@ -85,8 +83,8 @@ def run(args: Namespace, out: CommandOutput) -> None:
     """Simulate, print a summary, and write files."""
     if args.out == "-" and args.json:
         raise UsageError("--out - and --json both write to the standard output; give --out a file.")
-    need_new(None if args.out == "-" else args.out, args, "file by --out")
-    need_new(args.plot, args, "file by --plot")
+    need_unread(args.out, args, "file by --out")
+    need_unread(args.plot, args, "file by --plot")
     system = system_of(args)
     record = None if args.inputs is None else read_record(args.inputs, args)
     names = _names(args.names, system)
