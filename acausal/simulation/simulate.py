@@ -94,8 +94,8 @@ def simulate(
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
             it goes on with BDF from where stability, and not accuracy, limits the steps: where the model is stiff.
             ``"stiff"`` is implicit from the start: BDF, Kvaerno5 with events, and Kvaerno3 in fixed steps.
-        rtol: relative tolerance of an adaptive step.
-        atol: absolute tolerance of an adaptive step, in the states' units.
+        rtol: relative tolerance of an adaptive step, one for all or an array with one each; 0 leaves ``atol`` alone.
+        atol: absolute tolerance of an adaptive step, in the states' units, above 0; one for all or an array.
         max_steps: limit of adaptive steps. Each edge of a source allows eight more.
         max_step: the longest adaptive step, in seconds; by default a fiftieth of the span, ``inf`` for none. Steps end
             where sources and tables jump or bend, take at most an eighth of the period of a sine of time, and are
