@@ -14,12 +14,12 @@ import os
 import platform
 import secrets
 import stat
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, TextIO, cast
 
 from acausal.errors import AcausalError, DataError, reason, shown
 
@@ -48,6 +48,17 @@ def need_path(given: object, function: str, error: type[AcausalError] = DataErro
     if flaw := _flaw(text):
         raise error(f"{function}: {shown(text)} is not a path; it {flaw}.")
     return Path(text)
+
+
+def need_paths(given: object, function: str, error: type[AcausalError] = DataError) -> list[Path]:
+    """Several paths as such; anything else, such as one path, is refused.
+
+    Raises:
+        AcausalError: of the class ``error``.
+    """
+    if not isinstance(given, list | tuple):
+        raise error(f"{function}: path={shown(given)} are not folders; give a list of paths.")
+    return [need_path(path, function, error) for path in cast("Sequence[object]", given)]
 
 
 def file_to_write(given: object, function: str, *, need_folder: bool = True) -> Path:

@@ -112,4 +112,4 @@ from acausal.modeling.symbols import (
     references as references,
     time as time,
 )
-from acausal.modeling.undecided import undecided as undecided
+from acausal.modeling.truth import undecided as undecided

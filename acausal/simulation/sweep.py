@@ -22,6 +22,7 @@ from acausal.errors import (
     need_compiled,
     need_flag,
     need_package,
+    need_text,
     need_whole,
     shown,
     user_level,
@@ -153,7 +154,7 @@ class Sweep(ByName):
         from acausal.reporting import plot_variants
 
         first, values = next(iter(self.over.items()))
-        lines = np.asarray(self[name]).reshape(-1, len(self.t))
+        lines = np.asarray(self._column(need_text(name, "name"))).reshape(-1, len(self.t))
         levels = np.repeat(values, len(lines) // len(values))
         labels = (_label(name, self.unit(name)), _label(first, self.unit(first)))
         return plot_variants(np.asarray(self.t), lines, levels, labels, ax=ax)
@@ -167,7 +168,8 @@ class Sweep(ByName):
 
     def _side_by_side(self, names: tuple[str, ...]) -> Float[Array, "... n_names"]:
         found = self._read(names)
-        return jnp.stack([found[name] for name in names], axis=-1)
+        columns = [found[name] for name in names]
+        return jnp.stack(columns, axis=-1) if columns else jnp.zeros((*self.shape, 0))
 
     def _read(self, names: tuple[str, ...]) -> dict[str, Array]:
         new = tuple(name for name in names if name not in self._columns)

@@ -12,6 +12,7 @@ import numpy as np
 
 from acausal.analysis import Distilled, distill
 from acausal.data import RecordsLike
+from acausal.errors import need_text
 from acausal.files import need_path
 from acausal.jobs import Workers
 from acausal.networks import remove_offset
@@ -215,7 +216,7 @@ class Fit(TrainedModel):
 
     def page_content(self, title: str = "", profiles: Sequence[Profile] = ()) -> PageContent:
         """All that the page of the training shows; arguments as of `report`."""
-        return fit_content(self, self.verdict, title or "Training", profiles)
+        return fit_content(self, self.verdict, need_text(title, "title") or "Training", profiles)
 
     def export(
         self,

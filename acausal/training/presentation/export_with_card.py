@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import acausal.export as export
-from acausal.errors import DataError, nearest, user_level
+from acausal.errors import DataError, nearest, shown, user_level
 from acausal.files import file_to_write, need_path, write_files
+from acausal.modeling import by_name
 from acausal.training.presentation.model_card import facts, markdown
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
@@ -57,9 +58,14 @@ def export_with_card(
             f"used, delay {told}.",
             stacklevel=user_level(),
         )
+    if not isinstance(confidence, Confidence | None):
+        raise DataError(
+            f"fit.export: confidence={shown(confidence)}; give that of fit.confidence()."
+        )
+    further = by_name(notes, "fit.export: notes", "lines by title")
     function = FORMS[target.suffix]
     files = _write(fit, target, function, dict(options))
-    found = facts(fit, files, function, {**options}, confidence, notes or {})
+    found = facts(fit, files, function, {**options}, confidence, further)
     write_files({cards[0]: markdown(found), cards[1]: json.dumps(found, indent=2) + "\n"})
     return target
 
