@@ -269,7 +269,7 @@ def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray
         raise DataError("saveat is empty; give the times to save, or leave it out.")
     if ts.ndim != 1 or np.any(~(np.diff(ts) > 0)):
         raise DataError("saveat does not increase; give times in seconds, one after the other.")
-    outside = ts[(ts < start) | (ts > end)]
+    outside = ts[~((ts >= start) & (ts <= end))]
     if len(outside):
         raise DataError(f"saveat has {outside[0]:g} s; give times from {start:g} to {end:g} s.")
     return ts

@@ -434,6 +434,11 @@ def test_what_a_variable_was_computed_with_is_not_computed_again():
             "max_steps=0; give a whole number, 1 or more.",
         ),
         (
+            {"inputs": NO_FORCE, "dt": 0.1, "saveat": np.nan},
+            ac.DataError,
+            "saveat has nan s; give times from 0 to 1 s.",
+        ),
+        (
             {"inputs": NO_FORCE, "saveat": []},
             ac.DataError,
             "saveat is empty; give the times to save, or leave it out.",
