@@ -35,7 +35,7 @@ LONG = 200
 
 
 def need_path(given: object, function: str, error: type[AcausalError] = DataError) -> Path:
-    """A path as such; anything that is none is refused.
+    """A path as such, ``~/`` being the user's folder; anything that is none is refused.
 
     Raises:
         AcausalError: of the class ``error``.
@@ -47,7 +47,7 @@ def need_path(given: object, function: str, error: type[AcausalError] = DataErro
     text = os.fsdecode(given)
     if flaw := _flaw(text):
         raise error(f"{function}: {shown(text)} is not a path; it {flaw}.")
-    return Path(text)
+    return Path(text).expanduser() if text.startswith("~/") else Path(text)
 
 
 def need_paths(given: object, function: str, error: type[AcausalError] = DataError) -> list[Path]:
@@ -102,7 +102,7 @@ def write_files(
             moves: list[Callable[[], object]] = []
             for path, content in contents.items():
                 if make_folders:
-                    path.parent.mkdir(parents=True, exist_ok=True)
+                    _make_folder(path.parent)
                 text = isinstance(content, str)
                 data = content.encode(errors="backslashreplace") if text else content
                 moves.append(stack.enter_context(_written(path, data)))
@@ -218,6 +218,13 @@ def _written(path: Path, content: bytes) -> Generator[Callable[[], object]]:
     finally:
         with suppress(OSError):  # where it was moved, it is not there
             part.unlink()
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:  # as a file
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR)) from None
 
 
 def _mode(path: Path) -> int:

@@ -121,6 +121,17 @@ def test_what_no_file_can_be_called_is_refused(function: str):
         TAKING_A_PATH[function]("x" * 5000)
 
 
+def test_a_tilde_is_the_users_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    ac.diagram(plain()).save("~/drawings/a.svg")
+    assert [path.name for path in tmp_path.iterdir()] == ["drawings"]
+    with pytest.raises(
+        ac.DataError, match=r"a\.svg/index.html' cannot be written: Not a directory"
+    ):
+        ac.page(plain(), "~/drawings/a.svg")
+
+
 def test_a_pipe_is_written_to_and_a_folder_or_protected_file_is_not(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
