@@ -286,8 +286,8 @@ def _zipped(content: Mapping[str, bytes]) -> bytes:
 # -- arguments -----------------------------------------------------------------------------------------
 
 
-def _checked_kinds(fmi: str, kinds: str | Sequence[str], step: float) -> tuple[str, ...]:
-    if fmi not in VERSIONS:
+def _checked_kinds(fmi: object, kinds: str | Sequence[str], step: float) -> tuple[str, ...]:
+    if not (isinstance(fmi, str) and fmi in VERSIONS):
         raise DataError(f"export.fmu: there is no fmi={shown(fmi)}; give '3.0' or '2.0'.")
     chosen = names_in(kinds, "export.fmu: kinds")
     for kind in chosen:

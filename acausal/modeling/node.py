@@ -188,6 +188,10 @@ class Node(Generic[C]):
         unknown = declared is not None and not isinstance(declared, Option)
         value: Any = size
         if isinstance(size, str) and not unknown:
+            if not hasattr(self.component, size):
+                raise DeclarationError(
+                    f"{self.label}.{name}: its size '{size}' names nothing in the component"
+                )
             value = getattr(self.component, size)
         try:
             return operator.index(value)

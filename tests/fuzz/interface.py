@@ -140,6 +140,42 @@ SOUND_OF: dict[str, dict[str, Callable[[Case], Any]]] = {
 }
 """The same for single functions."""
 
+
+def fitted(**options: Any) -> None:
+    """A training with an object that a slip has made."""
+    c = case("translational")
+    given = {"strategy": "whole_record", "epochs": 1, "progress": False, "modifiers": [c.parameter]}
+    ac.fit(c.system, c.data, c.state, **{**given, **options})
+
+
+def declared(made: Any) -> None:
+    """A model whose class has a declaration that a slip has made."""
+
+    def equations(self: Any) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.x), 1.0)
+
+    parts = {"x": ac.Variable(), "extra": made, "equations": equations}
+    ac.compile(type("Declared", (ac.Component,), parts)()).parameters()
+
+
+USES: dict[str, Callable[[Case, Any], Any]] = {
+    **dict.fromkeys(
+        ("Parameter", "Variable", "Potential", "Flow", "Input", "Output", "Discrete", "Option", "InitialParameter",
+         "Module"),
+        lambda c, made: declared(made),
+    ),
+    **dict.fromkeys(("Shift", "Bounded"), lambda c, made: fitted(modifiers={c.parameter: made})),
+    **dict.fromkeys(
+        ("FrequencyRange", "DampingRatio", "Stability", "SmallCorrection", "ZeroCrossing"),
+        lambda c, made: fitted(regularizers=[made]),
+    ),
+    **dict.fromkeys(("Huber", "Student", "Likelihood"), lambda c, made: fitted(loss=made)),
+    "Delay": lambda c, made: fitted(delays={c.input: made}),
+    "Lag": lambda c, made: fitted(lags={c.input: made}),
+    "Start": lambda c, made: ac.compile(tl.Mass(m=1.0, s=made)),
+}  # fmt: skip
+"""By class, how an object of it is used: what it does not check when it is made, it must then."""
+
 METHODS: dict[str, tuple[Callable[[Case], Any], str]] = {
     "Component": (lambda c: tl_model(), "connect is_given modify replace"),
     "System": (lambda c: c.system, "initial_state initialize observe pack parameters table unit vector_field"),
@@ -308,7 +344,8 @@ def mutant(seed: int, folder: Path) -> Mutant:
                 given.append(p.default)
         try:
             with contextlib.chdir(folder):
-                return function(*given, **named)
+                made = function(*given, **named)
+                return USES.get(name, lambda c, made: made)(c, made)
         finally:
             jax.config.update("jax_compilation_cache_dir", before)
 
