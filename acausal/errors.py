@@ -72,7 +72,7 @@ def reason(error: OSError) -> str:
 
 def shortened(text: object, limit: int = 80) -> str:
     """A text of at most `limit` characters for a message; a name that a user gives may be anything."""
-    text = str(text)
+    text = str(text).encode(errors="backslashreplace").decode()  # halves of surrogate pairs
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 

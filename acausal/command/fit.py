@@ -151,7 +151,7 @@ def read_options(path: str) -> dict[str, Any]:
         ac.TrainingError: for a file that cannot be read, or that is neither.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = Path(path).read_text(encoding="utf-8-sig")
         options = tomllib.loads(text) if Path(path).suffix == ".toml" else json.loads(text)
     except OSError as error:
         raise ac.TrainingError(f"'{path}' cannot be read: {reason(error)}.") from None

@@ -110,12 +110,10 @@ def mpc(
         raise DataError(
             f"control.mpc: there is no method {shown(method)}; {nearest(str(method), METHODS)}"
         )
-    weights = {"track": track, "effort": effort, "change": change}
     goals = Goals(
-        *(
-            by_name(given, f"control.mpc: {name}", "weights by name")
-            for name, given in weights.items()
-        ),
+        by_name(track, "control.mpc: track", "weights by name"),
+        by_name(effort, "control.mpc: effort", "weights by name"),
+        by_name(change, "control.mpc: change", "weights by name"),
         by_name(limits, "control.mpc: limits", "(low, high) by name"),
         terminal,
     )

@@ -71,7 +71,7 @@ class Declaration:
         for name, text in {"unit": unit, "when": "" if when is None else when, "doc": doc}.items():
             need_text(text, name, DeclarationError)
         self.unit, self.when, self.doc = unit, when, doc
-        sizes = (shape,) if is_whole(shape) or isinstance(shape, str) else shape
+        sizes: Any = (shape,) if is_whole(shape) or isinstance(shape, str) else shape
         if sizes is not None and not (
             isinstance(sizes, tuple) and all(is_whole(n) or isinstance(n, str) for n in sizes)
         ):
