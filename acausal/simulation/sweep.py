@@ -31,6 +31,7 @@ from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import ByName, by_name, names_in, names_matching
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
+from acausal.simulation.step_grid import in_bytes, memory
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -229,6 +230,7 @@ def sweep(
             f"over={shown(over)} are not values by name, such as {{'r.R': [1.0, 2.0]}}."
         )
     values = {name: _values(system, name, over[name]) for name in names_in(over, "over")}
+    _check_size(system, values, need_flag(grid, "sweep: grid"), options.get("saveat"))
     columns = _variants(values, grid)
     roles = {name: _role(system, name) for name in values}
     common = {"params": params, "inputs": inputs, "x0": x0}
@@ -322,11 +324,29 @@ def _values(system: System, name: str, given: ArrayLike) -> Float[np.ndarray, " 
     return values
 
 
+def _check_size(
+    system: System, values: Mapping[str, Float[np.ndarray, " n"]], grid: bool, saveat: Any
+) -> None:
+    """Refuse more variants than this machine's memory holds.
+
+    Raises:
+        DataError: for them.
+    """
+    lengths = list(map(len, values.values()))
+    count, rows = prod(lengths) if grid else max(lengths), 2 if saveat is None else np.size(saveat)
+    needed = 8.0 * count * (len(values) + (1 + len(system.states)) * rows)
+    if needed > memory():
+        raise DataError(
+            f"over: {count:.3g} variants need {in_bytes(needed)} of memory or more where there are "
+            f"{in_bytes(memory())}; vary fewer values."
+        )
+
+
 def _variants(
     values: Mapping[str, Float[np.ndarray, " n"]], grid: bool
 ) -> dict[str, Float[np.ndarray, " n_variants"]]:
     """The value of every name in every variant."""
-    if need_flag(grid, "sweep: grid"):
+    if grid:
         meshes: Sequence[np.ndarray] = np.meshgrid(*values.values(), indexing="ij")
         return {name: mesh.ravel() for name, mesh in zip(values, meshes, strict=True)}
     lengths = {name: len(column) for name, column in values.items()}

@@ -376,6 +376,11 @@ def test_what_a_variable_was_computed_with_is_not_computed_again():
         ),
         ({"inputs": {"push.f": np.nan}}, ac.DataError, "Input 'push.f' is nan."),
         (
+            {"inputs": NO_FORCE, "params": {"mass.m": 10**400}},
+            ac.DataError,
+            f"params: 'mass.m' must be numbers, got {10**400!s:.77}...",
+        ),
+        (
             {"inputs": NO_FORCE, "dt": 0.3},
             ac.DataError,
             "Steps of dt=0.3 s do not divide the 1 s from 0 to 1 s; choose dt=1/3, or end at 0.9 s.",
