@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from argparse import (
     ArgumentParser,
@@ -141,7 +142,10 @@ def number_by_name(text: str) -> tuple[str, float]:
     """
     name, value = text_by_name(text)
     try:
-        return name, float(value)
+        number = float(value)
+        if math.isinf(number) and "inf" not in value.lower():  # too large
+            raise ValueError
+        return name, number
     except ValueError:
         raise ArgumentTypeError(f"'{text}' is not NAME=NUMBER, such as mass.m=2.5") from None
 

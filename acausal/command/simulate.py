@@ -27,6 +27,9 @@ from acausal.files import csv_text, need_path, write_files
 if TYPE_CHECKING:
     import numpy as np
 
+MOST_POINTS = 10_000_000
+"""Points that may be saved; more are a slip, and fill the memory."""
+
 
 def add(parsers: Parsers) -> None:
     """The command's arguments."""
@@ -137,8 +140,8 @@ def _span(args: Namespace, system: ac.System, record: ac.Data | None) -> tuple[f
 def _points(points: int | None, start: float, stop: float) -> np.ndarray | None:
     if points is None:
         return None
-    if points < 2:
-        raise ac.DataError(f"--points {points} are too few; give 2 or more.")
+    if not 2 <= points <= MOST_POINTS:
+        raise ac.DataError(f"--points {points} is not from 2 to {MOST_POINTS:_}.")
     import numpy as np
 
     return np.linspace(start, stop, points)

@@ -374,6 +374,11 @@ def test_simulate_into_a_pipe(typed) -> None:
         ((*PUSH, "--names", "mass.z"), 4, "The model has no variable 'mass.z'"),
         ((*PUSH, "--inputs", "push.xyz"), 4, "'.xyz' is no known ending"),
         ((*PUSH, "--params", "nowhere.safetensors"), 4, "nowhere.safetensors"),
+        (
+            (*PUSH, "--points", "1000000000000"),
+            4,
+            "--points 1000000000000 is not from 2 to 10_000_000",
+        ),
         ((*PUSH, "--set", "spring.c=1e99", "--dt", "0.1"), 5, "s"),
     ],
 )
@@ -382,6 +387,12 @@ def test_simulations_that_cannot_be(typed, words, code: int, sentence: str) -> N
     assert (found, out) == (code, "")
     assert sentence in err
     assert err.startswith("error: ")
+
+
+def test_a_number_that_is_too_large_is_none(typed) -> None:
+    code, _, err = typed("simulate", "oscillator.json", *PUSH, "--set", "mass.m=1e400")
+    assert code == 2
+    assert "'mass.m=1e400' is not NAME=NUMBER, such as mass.m=2.5" in err
 
 
 # -- training -----------------------------------------------------------------------------------------
