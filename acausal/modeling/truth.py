@@ -14,7 +14,14 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.modeling.symbols import Compared, is_within, refuse_equality, refuse_truth, time
+from acausal.modeling.symbols import (
+    COMPARED_WITH,
+    Compared,
+    is_within,
+    refuse_equality,
+    refuse_truth,
+    time,
+)
 
 LOCK = threading.Lock()
 SYMPYS = sp.Expr.__eq__
@@ -45,15 +52,15 @@ def undecided() -> Generator[None]:
 
 def _equals(self: sp.Expr, other: Any) -> Any:
     alike = SYMPYS(self, other)
-    if alike is not True and not is_within() and _varies(self, other):
-        refuse_equality(self, other)
+    if alike is not True and isinstance(other, COMPARED_WITH) and not is_within():
+        _check_known(self, other)
     return alike
 
 
 def _differs(self: sp.Expr, other: Any) -> Any:
     alike = SYMPYS(self, other)
-    if alike is not True and not is_within() and _varies(self, other):
-        refuse_equality(self, other)
+    if alike is not True and isinstance(other, COMPARED_WITH) and not is_within():
+        _check_known(self, other)
     return alike if alike is NotImplemented else not alike
 
 
@@ -63,7 +70,11 @@ def _is_true(self: sp.Expr) -> bool:
     return True
 
 
-def _varies(*sides: Any) -> bool:
-    """Whether an expression has a value only in a simulation."""
-    symbols = (s for side in sides if isinstance(side, sp.Expr) for s in side.free_symbols)
-    return any(isinstance(symbol, Compared) or symbol is time for symbol in symbols)
+def _check_known(*sides: Any) -> None:
+    if any(isinstance(side, sp.Expr) and _varies(side) for side in sides):
+        refuse_equality(*sides)
+
+
+def _varies(expression: sp.Expr) -> bool:
+    """Whether it has a value only in a simulation."""
+    return any(isinstance(s, Compared) or s is time for s in expression.free_symbols)
