@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
-from acausal.errors import DeclarationError, is_whole, need_flag, need_text, shown
+from acausal.errors import DeclarationError, need_flag, need_text, shown
 from acausal.modeling.written import call_text
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
@@ -68,17 +68,12 @@ class Declaration:
     def __init__(
         self, *, unit: str = "", shape: DeclaredShape = None, when: str | None = None, doc: str = ""
     ) -> None:
-        for name, text in {"unit": unit, "when": "" if when is None else when, "doc": doc}.items():
+        for name, text in {"when": "" if when is None else when, "doc": doc}.items():
             need_text(text, name, DeclarationError)
         self.unit, self.when, self.doc = unit, when, doc
-        sizes: Any = (shape,) if is_whole(shape) or isinstance(shape, str) else shape
-        if sizes is not None and not (
-            isinstance(sizes, tuple) and all(is_whole(n) or isinstance(n, str) for n in sizes)
-        ):
-            raise DeclarationError(
-                f"shape={shown(shape)} must be a whole number, the name of an attribute, or a tuple of these"
-            )
-        self.shape: tuple[int | str, ...] | None = sizes
+        self.shape: tuple[int | str, ...] | None = (
+            shape if shape is None or isinstance(shape, tuple) else (shape,)
+        )
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._class, self.name = owner, name

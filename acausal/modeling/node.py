@@ -170,7 +170,7 @@ class Node(Generic[C]):
 
     def _sizes(self, name: str, declared: Declaration) -> tuple[int, ...]:
         declared_sizes = cast(tuple[int | str, ...], declared.shape)
-        if ":" in declared_sizes:
+        if any(isinstance(n, str) and n == ":" for n in declared_sizes):
             value = self.modifiers.get(name, cast(Parameter, declared).default)
             if value is None:
                 raise DeclarationError(f"{self.label} has no value for '{name}'; give {name}=[...]")
@@ -194,7 +194,10 @@ class Node(Generic[C]):
                 )
             value = getattr(self.component, size)
         try:
-            return operator.index(value)
+            found = operator.index(value)
+            if abs(found) >= 2**63:
+                raise TypeError
+            return found
         except TypeError:
             given = f"'{size}', which is {type(declared).__name__}" if unknown else shown(value)
             raise DeclarationError(
