@@ -13,7 +13,7 @@ import sympy as sp
 from sympy.logic.boolalg import Boolean, BooleanAtom, BooleanFunction
 
 from acausal.errors import DeclarationError, shown
-from acausal.modeling.declarations import DependentParameter, InitialParameter, Variable
+from acausal.modeling.declarations import DependentParameter, Discrete, InitialParameter, Variable
 from acausal.modeling.functions import Floored, floor
 from acausal.modeling.symbols import HALF, Compared, Eq, Reference, number_or_expression, time
 
@@ -225,11 +225,11 @@ def sample(start: Any, period: Any) -> Tick:
     for symbol in sorted((begin + length).free_symbols, key=str):
         declared = symbol.declaration if isinstance(symbol, Reference) else None
         constant = not isinstance(declared, Variable) or isinstance(
-            declared, InitialParameter | DependentParameter
+            declared, InitialParameter | DependentParameter | Discrete
         )
-        if symbol is time or isinstance(symbol, Previous) or not constant:
+        if symbol is time or not constant:
             raise DeclarationError(
-                f"sample({begin}, {length}) needs numbers and parameters; {symbol} varies in a simulation"
+                f"sample({begin}, {length}) needs what changes at events only; {symbol} varies in a simulation"
             )
     if length.is_number and not length > 0:
         raise DeclarationError(f"sample(...) needs a period above zero, not {length}")
