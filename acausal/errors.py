@@ -6,7 +6,7 @@ Every message says what is wrong, where (dotted names, at most a dozen), and how
 import operator
 import re
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
@@ -72,7 +72,7 @@ def reason(error: OSError) -> str:
 
 def shortened(text: object, limit: int = 80) -> str:
     """A text of at most `limit` characters for a message; a name that a user gives may be anything."""
-    text = str(text)
+    text = str(text).encode(errors="backslashreplace").decode()  # halves of surrogate pairs
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
@@ -110,6 +110,22 @@ def nearest(name: object, known: Iterable[str]) -> str:
     if not candidates:
         return "there are none to choose from."
     return f"known are {listing(candidates)}."
+
+
+def known_name(
+    name: object, known: Collection[str], refusal: str, error: type[AcausalError] = DataError
+) -> str:
+    """A name that is known, as such.
+
+    Arguments:
+        name: what the user gave. known: the names. refusal: such as ``"there is no record"``.
+
+    Raises:
+        AcausalError: of the class ``error``, for any other name, and for what is no name.
+    """
+    if isinstance(name, str) and name in known:
+        return name
+    raise error(f"{refusal} {shown(name)}: {nearest(name, known)}")
 
 
 def need_compiled(system: object, function: str) -> None:
@@ -181,6 +197,17 @@ def need_flag(given: Any, argument: str, error: type[AcausalError] = DataError) 
     if isinstance(given, bool | np.bool_):
         return bool(given)
     raise error(f"{argument}={shown(given)}; give True or False.")
+
+
+def need_text(given: Any, argument: str, error: type[AcausalError] = DataError) -> str:
+    """A text as such.
+
+    Raises:
+        AcausalError: of the class ``error``, for anything else.
+    """
+    if isinstance(given, str):
+        return given
+    raise error(f"{argument}={shown(given)} is not a text.")
 
 
 def user_level() -> int:

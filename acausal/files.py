@@ -1,6 +1,6 @@
 """Files: paths that users give, checked; files written completely or not at all, by one process.
 
-A file that exists is replaced; `new_file` refuses it for functions with an argument ``overwrite``.
+A regular file that exists is replaced, without a question, by whatever writes.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ import os
 import platform
 import secrets
 import stat
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, TextIO, cast
 
-from acausal.errors import AcausalError, DataError, need_flag, reason, shown
+from acausal.errors import AcausalError, DataError, reason, shown
 
 try:
     import fcntl
@@ -35,7 +35,7 @@ LONG = 200
 
 
 def need_path(given: object, function: str, error: type[AcausalError] = DataError) -> Path:
-    """A path as such; anything that is none is refused.
+    """A path as such, ``~/`` being the user's folder; anything that is none is refused.
 
     Raises:
         AcausalError: of the class ``error``.
@@ -47,24 +47,33 @@ def need_path(given: object, function: str, error: type[AcausalError] = DataErro
     text = os.fsdecode(given)
     if flaw := _flaw(text):
         raise error(f"{function}: {shown(text)} is not a path; it {flaw}.")
-    return Path(text)
+    return Path(text).expanduser() if text.startswith("~/") else Path(text)
 
 
-def new_file(given: object, function: str, overwrite: bool, *, need_folder: bool = True) -> Path:
-    """The path of a file that may be written.
+def need_paths(given: object, function: str, error: type[AcausalError] = DataError) -> list[Path]:
+    """Several paths as such; anything else, such as one path, is refused.
+
+    Raises:
+        AcausalError: of the class ``error``.
+    """
+    if not isinstance(given, list | tuple):
+        raise error(f"{function}: path={shown(given)} are not folders; give a list of paths.")
+    return [need_path(path, function, error) for path in cast("Sequence[object]", given)]
+
+
+def file_to_write(given: object, function: str, *, need_folder: bool = True) -> Path:
+    """The path of a file that is to be written, checked before what it shall hold is computed.
 
     Arguments:
         given: what the user gave. function: that was called with it, for the message.
-        overwrite: whether the file may exist. need_folder: whether its folder must.
+        need_folder: whether its folder must exist.
 
     Raises:
-        DataError: for what is no path, a folder, a path that exists, or a folder that does not.
+        DataError: for what is no path, a folder, or a file in a folder that does not exist.
     """
-    path, overwrite = need_path(given, function), need_flag(overwrite, f"{function}: overwrite")
+    path = need_path(given, function)
     if path.is_dir():
         raise DataError(f"{function}: '{path}' is a folder; give the path of a file.")
-    if path.exists() and not overwrite:
-        raise DataError(f"{function}: '{path}' exists; give another path, or overwrite=True.")
     if need_folder and not path.parent.is_dir():
         raise DataError(f"{function}: there is no folder '{path.parent}'; make it first.")
     return path
@@ -93,7 +102,7 @@ def write_files(
             moves: list[Callable[[], object]] = []
             for path, content in contents.items():
                 if make_folders:
-                    path.parent.mkdir(parents=True, exist_ok=True)
+                    _make_folder(path.parent)
                 text = isinstance(content, str)
                 data = content.encode(errors="backslashreplace") if text else content
                 moves.append(stack.enter_context(_written(path, data)))
@@ -209,6 +218,13 @@ def _written(path: Path, content: bytes) -> Generator[Callable[[], object]]:
     finally:
         with suppress(OSError):  # where it was moved, it is not there
             part.unlink()
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:  # as a file
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR)) from None
 
 
 def _mode(path: Path) -> int:

@@ -587,7 +587,9 @@ class System(LeavesCaches):
         """
         given: Any = inputs
         if isinstance(given, Mapping):
-            given = {n: v(t) if callable(v) else v for n, v in given.items()}
+            given = {
+                n: v(t) if callable(v) and not isinstance(v, type) else v for n, v in given.items()
+            }
         return self.input_values(given, "inputs")
 
     def input_values(

@@ -55,9 +55,7 @@ class Exported:
     """The quarter vehicle in C, compiled with the flags of the code by hand."""
 
     def __init__(self, system: ac.System, params: Any, folder: Path) -> None:
-        _, source = ac.export.c(
-            system, folder, params, name="vehicle", solver=SOLVER, overwrite=True
-        )
+        _, source = ac.export.c(system, folder, params, name="vehicle", solver=SOLVER)
         driver = folder / "driver.c"
         driver.write_text(DRIVER, encoding="utf-8")
         self.library = c.compiled(source, driver)

@@ -60,7 +60,7 @@ def in_python(seen: ac.Observer) -> Callable[[], None]:
 
 def in_c(seen: ac.Observer, folder: Path) -> Callable[[], None]:
     """`CALLS_IN_C` steps of the same in C."""
-    _, source = ac.export.c(seen, folder, name="seen", overwrite=True)
+    _, source = ac.export.c(seen, folder, name="seen")
     driver = folder / "driver.c"
     driver.write_text(DRIVER, encoding="utf-8")
     library = c.compiled(source, driver)

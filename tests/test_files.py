@@ -25,8 +25,6 @@ from acausal.reporting import Page, write_json
 from tests.support.oscillator import Oscillator, learned, plain
 from tests.support.paths import ROOT
 
-OVER = {"overwrite": True}
-
 
 @cache
 def run() -> ac.Solution:
@@ -53,11 +51,11 @@ WRITERS: dict[str, Callable[[Path], Any]] = {
     "report.html": lambda path: Page("Report", "x" * 100).write(path),
     "figures.json": lambda path: write_json(path, list(range(100))),
     "drawing.svg": lambda path: ac.diagram(plain()).save(path),
-    "export.c": lambda path: ac.export.c(plain(), path.parent, name="export", **OVER),
-    "export.fmu": lambda path: ac.export.fmu(plain(), path, binary=False, **OVER),
-    "net.onnx": lambda path: ac.export.onnx(learned(), path, network="extra.net", **OVER),
-    "net.mlir": lambda path: ac.export.stablehlo(learned(), path, network="extra.net", **OVER),
-    "export.mo": lambda path: ac.export.modelica(plain(), path, **OVER),
+    "export.c": lambda path: ac.export.c(plain(), path.parent, name="export"),
+    "export.fmu": lambda path: ac.export.fmu(plain(), path, binary=False),
+    "net.onnx": lambda path: ac.export.onnx(learned(), path, network="extra.net"),
+    "net.mlir": lambda path: ac.export.stablehlo(learned(), path, network="extra.net"),
+    "export.mo": lambda path: ac.export.modelica(plain(), path),
 }
 """What writes files, each by the name of one that it writes."""
 
@@ -121,6 +119,17 @@ def test_what_no_file_can_be_called_is_refused(function: str):
         assert str(error.value) == f"{function}: {path!r} is not a path; {flaw}."
     with pytest.raises(ac.AcausalError, match=r"is not a path; it is too long\.$"):
         TAKING_A_PATH[function]("x" * 5000)
+
+
+def test_a_tilde_is_the_users_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    ac.diagram(plain()).save("~/drawings/a.svg")
+    assert [path.name for path in tmp_path.iterdir()] == ["drawings"]
+    with pytest.raises(
+        ac.DataError, match=r"a\.svg/index.html' cannot be written: Not a directory"
+    ):
+        ac.page(plain(), "~/drawings/a.svg")
 
 
 def test_a_pipe_is_written_to_and_a_folder_or_protected_file_is_not(

@@ -114,6 +114,8 @@ class Estimation(Solution):
         columns = dict(zip(read, _variances(path, read, z, self.covariance).T, strict=True))
         first = len(self.system.states)
         columns |= {n: self.covariance[:, first + i, first + i] for i, n in enumerate(own)}
+        if not names:
+            return jnp.zeros((len(self.t), 0))
         sigma = jnp.sqrt(jnp.maximum(jnp.stack([columns[n] for n in names], axis=1), 0.0))
         return sigma[:, 0] if isinstance(name, str) else sigma
 

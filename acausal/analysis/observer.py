@@ -13,13 +13,13 @@ from jax.flatten_util import ravel_pytree
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import check_time, is_number
+from acausal._jax import check_time, is_number, is_real
 from acausal.analysis.estimate import belief_at, filter_for
 from acausal.analysis.filtering import Belief, Linearized, Measured
 from acausal.analysis.tracking import TrackedModel, make_model, numbers_by_name
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, shown
-from acausal.modeling import ByName
+from acausal.modeling import ByName, by_name
 from acausal.simulation import Samples, Steps
 
 if TYPE_CHECKING:
@@ -153,10 +153,12 @@ class Observer(ByName):
             )
         row = self._row.copy()
         row[0], row[1 : 1 + len(system.inputs)] = t, now
-        for name, value in (y or {}).items():
+        for name, value in by_name(y, "y", "measurements by name").items():
             if name not in self._places:
                 known = ", ".join(self._places)
                 raise DataError(f"y: '{name}' is not a sensor; the observer has {known}.")
+            if not (is_real(value) and np.ndim(value) == 0):
+                raise DataError(f"y: '{name}' is {shown(value)}; give a number, or NaN.")
             row[self._places[name]] = value
         for each in self._back_to(row) if is_late else [row]:
             if self._late:

@@ -14,7 +14,7 @@ from acausal._jax import check_time
 from acausal.codegen import Values
 from acausal.errors import DataError, nearest, need_compiled
 from acausal.initialization import Initialization
-from acausal.modeling import ByName
+from acausal.modeling import ByName, names_in
 
 if TYPE_CHECKING:
     from acausal.system import Params, System
@@ -60,8 +60,8 @@ class OperatingPoint(ByName):
 
     def to_dict(self, names: Sequence[str] | None = None) -> dict[str, float]:
         """Variables (by default all) as numbers, by name."""
-        names = self.names if names is None else names
-        return dict(zip(names, np.asarray(self._side_by_side(tuple(names))).tolist(), strict=True))
+        names = self.names if names is None else names_in(names)
+        return dict(zip(names, np.asarray(self._side_by_side(names)).tolist(), strict=True))
 
     def _column(self, name: str) -> Float[Array, ""]:
         return self._side_by_side((name,))[0]

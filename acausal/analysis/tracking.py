@@ -192,7 +192,7 @@ def make_model(
     Raises:
         DataError: for what is not a step.
     """
-    every = {**system.parameters(), **(params or {})}
+    every = {**system.parameters(), **by_name(params, "params", "values by name")}
     packed = system.pack(every)
     if dt is not None and not (is_number(dt) and dt > 0):
         raise DataError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")

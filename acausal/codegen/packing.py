@@ -121,5 +121,5 @@ def traced_names(params: object) -> list[str]:
 
 def _is_number(value: Any) -> bool:
     if isinstance(value, float | int):
-        return True
+        return isinstance(value, float) or abs(value) < 2**1023
     return isinstance(value, np.ndarray | np.number | jax.Array) and np.ndim(value) == 0

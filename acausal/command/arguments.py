@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
+import math
+import re
 from argparse import (
     ArgumentParser,
     ArgumentTypeError,
     Namespace,
     RawDescriptionHelpFormatter,
-    _ArgumentGroup,  # pyright: ignore[reportPrivateUsage]
     _SubParsersAction,  # pyright: ignore[reportPrivateUsage] (argparse has no public name for it)
 )
 from collections.abc import Callable
+from glob import iglob
 from pathlib import Path
 from textwrap import dedent, fill
 from typing import Any, TypeAlias
@@ -84,19 +86,29 @@ def add_model(parser: ArgumentParser, several: str | None = None) -> None:
     add_by_name(parser, "--replace", text=words, read=text_by_name, metavar="PART=CLASS")
 
 
-def add_overwrite(parser: _ArgumentGroup | ArgumentParser) -> None:
-    """Whether what exists is replaced; the same for all commands that write."""
-    parser.add_argument("--overwrite", action="store_true", help="replace what exists")
+READ = ("model", "data", "training", "inputs", "params", "options")
+"""Arguments that name files which a command reads."""
 
 
-def need_new(path: str | Path | None, args: Namespace, remedy: str) -> None:
-    """Refuse a path that exists, unless it is to be replaced.
+def need_unread(path: str | Path | None, args: Namespace, remedy: str) -> None:
+    """Refuse to write to a file that the command reads.
 
     Raises:
-        DataError: with both ways out.
+        DataError: with the argument to change.
     """
-    if path is not None and not args.overwrite and Path(path).exists():
-        raise ac.DataError(f"'{path}' exists; give another {remedy}, or --overwrite.")
+    if path is None or not Path(path).is_file():
+        return
+    given = [vars(args).get(name) or [] for name in READ]
+    for text in (t for g in given for t in ([g] if isinstance(g, str) else g)):
+        found = iglob(text)  # noqa: PTH207 (a pattern may be absolute)
+        for file in map(Path, (text, text.rpartition(":")[0], *found)):
+            if file.is_file() and file.samefile(path):
+                raise ac.DataError(f"'{path}' is read by this command; give another {remedy}.")
+
+
+def file_name(text: str, ending: str) -> str:
+    """The name of a file in one folder, whatever a model or record is called."""
+    return re.sub(r"[^\w.-]", "_", text) + ending
 
 
 def add_parameters(parser: ArgumentParser) -> None:
@@ -130,7 +142,10 @@ def number_by_name(text: str) -> tuple[str, float]:
     """
     name, value = text_by_name(text)
     try:
-        return name, float(value)
+        number = float(value)
+        if math.isinf(number) and "inf" not in value.lower():  # too large
+            raise ValueError
+        return name, number
     except ValueError:
         raise ArgumentTypeError(f"'{text}' is not NAME=NUMBER, such as mass.m=2.5") from None
 

@@ -12,8 +12,8 @@ from acausal.command.arguments import (
     Parsers,
     add_command,
     add_model,
-    add_overwrite,
     add_parameters,
+    need_unread,
 )
 from acausal.command.exit_codes import UsageError
 from acausal.command.model import parameters_of, system_of, title_of
@@ -54,7 +54,6 @@ def add(parsers: Parsers) -> None:
     parser.add_argument("path", help=f"where it is written ({endings})")
     parser.add_argument("--form", choices=list(FORMS), help="by default that of the path's ending")
     add_parameters(parser)
-    add_overwrite(parser)
     own = parser.add_argument_group("options of some forms")
     for option, arguments in OPTIONS.items():
         forms = [name for name, form in FORMS.items() if option in form.options]
@@ -70,12 +69,13 @@ def run(args: Namespace, out: CommandOutput) -> None:
     for option in given:
         if option not in form.options:
             raise UsageError(f"--{option} does not go with the form {name}.")
+    need_unread(args.path, args, "path")
     system = system_of(args)
     params = parameters_of(args, system)
     path = need_path(args.path, "export")
     if name == "c" and path.suffix in form.endings:
         path, given["name"] = path.parent, path.stem
-    files = getattr(ac.export, name)(system, path, params, overwrite=args.overwrite, **given)
+    files = getattr(ac.export, name)(system, path, params, **given)
     written = [str(file) for file in (files if isinstance(files, tuple) else (files,))]
     out.wrote(written)
     out.result({"model": title_of(system), "form": name, "files": written})

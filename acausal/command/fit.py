@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 import tomllib
 from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping
@@ -17,9 +16,9 @@ from acausal.command.arguments import (
     add_by_name,
     add_command,
     add_model,
-    add_overwrite,
     add_parameters,
-    need_new,
+    file_name,
+    need_unread,
     value_by_name,
 )
 from acausal.command.model import parameters_of, system_of, title_of
@@ -55,7 +54,6 @@ def add(parsers: Parsers) -> None:
     results.add_argument(
         "--out", metavar="FILE", help="the trained parameters; by default MODEL-trained.safetensors"
     )
-    add_overwrite(results)
     results.add_argument("--report", metavar="FOLDER", help="write a page about the training")
     add_reading(parser)
 
@@ -82,9 +80,8 @@ def run(args: Namespace, out: CommandOutput) -> None:
     keywords = keywords_of(args)
     system = system_of(args)
     title = title_of(system)
-    path = Path(_file_name(title) if args.out is None else args.out)
-    need_new(path, args, "file by --out")
-    need_new(args.report and Path(args.report) / "index.html", args, "folder by --report")
+    path = Path(file_name(title, "-trained.safetensors") if args.out is None else args.out)
+    need_unread(path, args, "file by --out")
     data = read_records(args.data, args)
     start = parameters_of(args, system) if args.params is not None or args.set else None
     keywords["progress"] = not args.json
@@ -95,11 +92,6 @@ def run(args: Namespace, out: CommandOutput) -> None:
         files.append(str(done.report(args.report, title)))
     _show(done, title, files, out)
     out.result({"model": title, **_facts(done), "files": files})
-
-
-def _file_name(title: str) -> str:
-    """A file in the present folder, whatever a model's file calls the model."""
-    return re.sub(r"[^\w.-]", "_", title) + "-trained.safetensors"
 
 
 def _show(done: ac.Fit, title: str, files: list[str], out: CommandOutput) -> None:
@@ -159,7 +151,7 @@ def read_options(path: str) -> dict[str, Any]:
         ac.TrainingError: for a file that cannot be read, or that is neither.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = Path(path).read_text(encoding="utf-8-sig")
         options = tomllib.loads(text) if Path(path).suffix == ".toml" else json.loads(text)
     except OSError as error:
         raise ac.TrainingError(f"'{path}' cannot be read: {reason(error)}.") from None

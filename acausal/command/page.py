@@ -3,16 +3,9 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from pathlib import Path
 
 import acausal as ac
-from acausal.command.arguments import (
-    Parsers,
-    add_command,
-    add_model,
-    add_overwrite,
-    need_new,
-)
+from acausal.command.arguments import Parsers, add_command, add_model
 from acausal.command.model import system_of, title_of
 from acausal.command.output import CommandOutput
 
@@ -32,12 +25,10 @@ def add(parsers: Parsers) -> None:
     )
     add_model(parser)
     parser.add_argument("folder", help="where index.html is written")
-    add_overwrite(parser)
 
 
 def run(args: Namespace, out: CommandOutput) -> None:
     """Write the page."""
-    need_new(Path(args.folder) / "index.html", args, "folder")
     system = system_of(args)
     file = str(ac.page(system, args.folder))
     out.wrote([file])

@@ -13,9 +13,9 @@ from acausal.command.arguments import (
     add_by_name,
     add_command,
     add_model,
-    add_overwrite,
     add_parameters,
-    need_new,
+    file_name,
+    need_unread,
     number_by_name,
 )
 from acausal.command.fit import add_training, keywords_of
@@ -53,16 +53,14 @@ def add(parsers: Parsers) -> None:
     results = parser.add_argument_group("results")
     results.add_argument("--out", metavar="FOLDER", help="write every record's bands as CSV")
     results.add_argument("--report", metavar="FOLDER", help="write a page about the predictions")
-    add_overwrite(results)
     add_reading(parser)
 
 
 def run(args: Namespace, out: CommandOutput) -> None:
     """Predict, print the errors, and write files."""
-    need_new(args.out, args, "folder by --out")
-    need_new(args.report and Path(args.report) / "index.html", args, "folder by --report")
     system = system_of(args)
     data, training = read_records(args.data, args), read_records(args.training, args)
+    into = _files(args, list(data) if isinstance(data, dict) else ["record"])
     keywords: dict[str, Any] = {
         **keywords_of(args),
         "strategy": "whole_record",
@@ -73,8 +71,7 @@ def run(args: Namespace, out: CommandOutput) -> None:
     known = ac.fit(system, training, args.targets, params=params, seed=args.seed, **keywords)
     found = known.predict(data, x0=dict(args.x0) or "auto")
     title, files = title_of(system), list[str]()
-    if args.out is not None:
-        files += [str(p.to_csv(Path(args.out) / f"{Path(n).stem}.csv")) for n, p in found.items()]
+    files += [str(found[name].to_csv(file)) for name, file in into.items()]
     if args.report is not None:
         files.append(str(found.report(args.report, title)))
     out.title(f"{title}: {listing(found)} predicted")
@@ -99,3 +96,21 @@ def run(args: Namespace, out: CommandOutput) -> None:
             "files": files,
         }
     )
+
+
+def _files(args: Namespace, names: list[str]) -> dict[str, Path]:
+    """By record, the file of its bands; none if they are not asked for.
+
+    Raises:
+        DataError: if two of them are one, or one is read.
+    """
+    if args.out is None:
+        return {}
+    files = {name: Path(args.out, file_name(name, ".csv")) for name in names}
+    if len(set(files.values())) < len(files):
+        raise ac.DataError(
+            f"--out: two of the records {listing(names)} have the same name as files; predict them in turn."
+        )
+    for file in files.values():
+        need_unread(file, args, "folder by --out")
+    return files

@@ -13,9 +13,8 @@ from acausal.command.arguments import (
     add_by_name,
     add_command,
     add_model,
-    add_overwrite,
     add_parameters,
-    need_new,
+    need_unread,
     number_by_name,
 )
 from acausal.command.exit_codes import UsageError
@@ -27,6 +26,9 @@ from acausal.files import csv_text, need_path, write_files
 
 if TYPE_CHECKING:
     import numpy as np
+
+MOST_POINTS = 10_000_000
+"""Points that may be saved; more are a slip, and fill the memory."""
 
 
 def add(parsers: Parsers) -> None:
@@ -61,7 +63,6 @@ def add(parsers: Parsers) -> None:
     results.add_argument(
         "--out", metavar="FILE", help="write the variables as CSV; - to the output"
     )
-    add_overwrite(results)
     results.add_argument("--plot", metavar="FILE", help="draw them: .png, .svg or .pdf")
     add_reading(parser)
 
@@ -87,8 +88,8 @@ def run(args: Namespace, out: CommandOutput) -> None:
     """Simulate, print a summary, and write files."""
     if args.out == "-" and args.json:
         raise UsageError("--out - and --json both write to the standard output; give --out a file.")
-    need_new(None if args.out == "-" else args.out, args, "file by --out")
-    need_new(args.plot, args, "file by --plot")
+    need_unread(args.out, args, "file by --out")
+    need_unread(args.plot, args, "file by --plot")
     system = system_of(args)
     record = None if args.inputs is None else read_record(args.inputs, args)
     names = _names(args.names, system)
@@ -141,8 +142,8 @@ def _span(args: Namespace, system: ac.System, record: ac.Data | None) -> tuple[f
 def _points(points: int | None, start: float, stop: float) -> np.ndarray | None:
     if points is None:
         return None
-    if points < 2:
-        raise ac.DataError(f"--points {points} are too few; give 2 or more.")
+    if not 2 <= points <= MOST_POINTS:
+        raise ac.DataError(f"--points {points} is not from 2 to {MOST_POINTS:_}.")
     import numpy as np
 
     return np.linspace(start, stop, points)

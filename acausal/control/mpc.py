@@ -17,12 +17,13 @@ from jax.typing import ArrayLike
 from jaxtyping import Float
 
 import acausal.simulation as simulation
-from acausal._jax import is_number
+from acausal._jax import check_time, is_number, is_real
 from acausal.control.goals import Goals, Limits, Weights
 from acausal.control.transcription import METHODS, NonlinearProgram, program
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, need_compiled, need_whole, shown, user_level
 from acausal.export import casadi
+from acausal.modeling import by_name
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -105,11 +106,17 @@ def mpc(
     max_iterations = need_whole(max_iterations, "control.mpc: max_iterations", DataError, 1)
     if not is_number(dt) or not 0 < float(dt) < np.inf:
         raise DataError(f"control.mpc: dt={shown(dt)} is not a sample time; give seconds.")
-    if method not in METHODS:
+    if not (isinstance(method, str) and method in METHODS):
         raise DataError(
             f"control.mpc: there is no method {shown(method)}; {nearest(str(method), METHODS)}"
         )
-    goals = Goals(dict(track), dict(effort), dict(change or {}), dict(limits or {}), terminal)
+    goals = Goals(
+        by_name(track, "control.mpc: track", "weights by name"),
+        by_name(effort, "control.mpc: effort", "weights by name"),
+        by_name(change, "control.mpc: change", "weights by name"),
+        by_name(limits, "control.mpc: limits", "(low, high) by name"),
+        terminal,
+    )
     goals.check(system)
     if not system.states:
         raise DataError("control.mpc: the model has no states; there is nothing to plan.")
@@ -177,6 +184,7 @@ class MPC:
         Warns:
             UserWarning: if IPOPT found no optimum.
         """
+        check_time(t)
         goals, state = self.goals, self._state(x)
         times = t + self.dt * np.arange(self.steps + 1)
         goal = self._courses("reference", reference, tuple(goals.track), times[1:], 0.0)
@@ -288,7 +296,7 @@ class MPC:
         if isinstance(x, Mapping) and (lacking := [n for n in names if n not in x]):
             raise DataError(f"MPC.step: x lacks {listing(lacking)}; give all states.")
         values: Any = [x[n] for n in names] if isinstance(x, Mapping) else x
-        state = np.asarray(values, float)
+        state = np.asarray(values, float) if is_real(values) else np.array(np.nan)
         if state.shape != (len(names),) or not np.isfinite(state).all():
             raise DataError(
                 f"MPC.step: x={shown(x)} are not the {len(names)} states ({', '.join(names)})."
@@ -299,7 +307,7 @@ class MPC:
         self, argument: str, given: Mapping[str, Course] | None, names: Sequence[str],
         times: Float[np.ndarray, " n"], default: float | None,
     ) -> Float[np.ndarray, "n_names n"]:  # fmt: skip
-        given = given or {}
+        given = by_name(given, f"MPC.step: {argument}", "values by name")
         for name in given:
             if name not in names:
                 raise DataError(
@@ -314,7 +322,7 @@ class MPC:
             value = given.get(name, default)
             if callable(value):
                 value = [value(float(t)) for t in times]
-            column = np.asarray(value, float)
+            column = np.asarray(value, float) if is_real(value) else np.array(np.nan)
             if column.shape not in ((), times.shape) or not np.isfinite(column).all():
                 raise DataError(
                     f"MPC.step: {argument} of '{name}' is {shown(value)}; give a number, one for each of the "

@@ -99,6 +99,11 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
     settings: Any = about.get("settings")
     if not isinstance(settings, Mapping):
         raise DataError(f"'{path}' does not say which settings its networks have: it is damaged.")
+    for name in sorted(
+        arrays.keys() & like.keys()
+    ):  # a user may have given a whole number, or one in single precision
+        if not callable(like[name]) and (own := np.asarray(like[name]).dtype).kind == "f":
+            arrays[name] = arrays[name].astype(own)
     like = {n: like_saved(leaf, _settings_of(n, settings)) for n, leaf in like.items()}
     params = filled_like(like, arrays, f"'{path}'")
     for place, here in _settings(like, ""):

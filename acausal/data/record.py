@@ -25,7 +25,7 @@ from acausal.data.given_columns import Missing, check_table, columns_of
 from acausal.data.readers import SignalTable, is_data_frame, units_said
 from acausal.data.samples import is_uniform
 from acausal.data.signal import Beyond, Interpolation, Signal
-from acausal.errors import DataError, listing, nearest, shown, user_level
+from acausal.errors import DataError, known_name, listing, nearest, shown, user_level
 from acausal.modeling import ByName, names_in
 from acausal.units import convert
 
@@ -265,9 +265,7 @@ class Data(ByName, Formats):
         return float(self.time[-1] - self.time[0]) / (len(self.time) - 1)
 
     def _column(self, name: str) -> Float[np.ndarray, " n"]:
-        if name not in self.signals:
-            raise DataError(f"The record has no '{name}': {nearest(name, self.signals)}")
-        return self.signals[name]
+        return self.signals[known_name(name, self.signals, "The record has no")]
 
     def _side_by_side(self, names: tuple[str, ...]) -> Float[np.ndarray, "n n_names"]:
         columns = [self._column(n) for n in names]

@@ -24,7 +24,7 @@ from acausal.export.needs import all_parameters, need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.export.target import target_of
 from acausal.export.vector import ParameterVector
-from acausal.files import need_path, new_file, write_files
+from acausal.files import need_path, write_files
 from acausal.modeling import names_in
 from acausal.simulation import limits_of
 from acausal.system import System
@@ -59,7 +59,6 @@ def c(
     derivatives: bool = True,
     dtype: Any = np.float64,
     ranges: Ranges | None = None,
-    overwrite: bool = False,
 ) -> tuple[Path, Path]:
     """Write a model's equations, or an observer's step, as C99: a header and a source, without heap or static memory.
 
@@ -72,7 +71,7 @@ def c(
 
     Arguments:
         model: a compiled model, or an observer, which has its parameters and its steps already: of the other arguments
-            it takes ``name``, ``outputs``, ``dtype`` and ``overwrite``.
+            it takes ``name``, ``outputs`` and ``dtype``.
         folder: where the files are written; it is made if need be.
         params: as `System.parameters` gives them, for example ``fit.params``; by default the model's.
         name: of files, struct and functions; by default the model's class in small letters.
@@ -84,13 +83,12 @@ def c(
         dtype: ``numpy.float64`` or ``numpy.float32``.
         ranges: by network the interval of its argument in training, or one for each argument, such as ``fit.ranges``:
             the function ``..._outside`` tells whether an argument has left its range.
-        overwrite: whether files of this name may be replaced.
 
     Returns:
         The paths of header and source.
 
     Raises:
-        DataError: for an unknown name, a file that exists, or an argument that does not fit.
+        DataError: for an unknown name, what is no path, or an argument that does not fit.
         ExportError: for an operation without C, or a solver that has no fixed steps in C.
     """
     if isinstance(model, Observer):
@@ -109,8 +107,6 @@ def c(
         parts = text.name, header(text), source(text)
     path = need_path(folder, "export.c")
     files = path / f"{parts[0]}.h", path / f"{parts[0]}.c"
-    for file in files:
-        new_file(file, "export.c", overwrite, need_folder=False)
     write_files(dict(zip(files, parts[1:], strict=True)), make_folders=True)
     return files
 

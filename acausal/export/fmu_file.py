@@ -54,7 +54,7 @@ from acausal.export.fmu_text.header import model_header
 from acausal.export.fmu_text.variables import event_indicators, shown_by_others, variables
 from acausal.export.needs import need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
-from acausal.files import new_file, write_files
+from acausal.files import file_to_write, write_files
 from acausal.modeling import names_in
 from acausal.simulation import STABILITY_LIMIT, fastest_mode
 from acausal.system import System
@@ -83,7 +83,6 @@ def fmu(
     ranges: Ranges | None = None,
     binary: bool = True,
     platforms: Sequence[str] | None = None,
-    overwrite: bool = False,
 ) -> Path:
     """Write a model as an FMU: C sources, a library for this platform, and a description of its variables.
 
@@ -108,18 +107,17 @@ def fmu(
         binary: whether libraries are built; without a compiler only the sources are written.
         platforms: those that libraries are built for, such as ``["x86_64-linux", "x86_64-windows", "aarch64-darwin"]``,
             by default this computer's; others need ``pip install 'acausal[export-platforms]'``.
-        overwrite: whether a file of this path may be replaced.
 
     Returns:
         The path.
 
     Raises:
-        DataError: for an unknown name, a path that exists, or an argument that does not fit.
+        DataError: for an unknown name, what is no path of a file, or an argument that does not fit.
         ExportError: for an operation without C, a solver that has no fixed steps in C, or a platform without a
             compiler.
     """
     need_exportable(system, "fmu")
-    target = new_file(path, "export.fmu", overwrite)
+    target = file_to_write(path, "export.fmu")
     chosen = _checked_kinds(fmi, kinds, STEP if step is None else step)
     places = _checked_platforms(platforms, fmi) if need_flag(binary, "binary") else ()
     scalars = fmi == "2.0"
@@ -288,8 +286,8 @@ def _zipped(content: Mapping[str, bytes]) -> bytes:
 # -- arguments -----------------------------------------------------------------------------------------
 
 
-def _checked_kinds(fmi: str, kinds: str | Sequence[str], step: float) -> tuple[str, ...]:
-    if fmi not in VERSIONS:
+def _checked_kinds(fmi: object, kinds: str | Sequence[str], step: float) -> tuple[str, ...]:
+    if not (isinstance(fmi, str) and fmi in VERSIONS):
         raise DataError(f"export.fmu: there is no fmi={shown(fmi)}; give '3.0' or '2.0'.")
     chosen = names_in(kinds, "export.fmu: kinds")
     for kind in chosen:

@@ -12,7 +12,7 @@ import numpy as np
 from acausal._jax import need_double_precision, need_known
 from acausal.errors import ModelError, need_flag, shown
 from acausal.export.needs import all_parameters
-from acausal.files import new_file, write_files
+from acausal.files import file_to_write, write_files
 from acausal.modeling import Component, InitialParameter, element_name
 from acausal.system import System, compile
 
@@ -23,7 +23,6 @@ def modelica(
     params: Mapping[str, Any] | None = None,
     *,
     selfcontained: bool = False,
-    overwrite: bool = False,
 ) -> Path:
     """Write a model as a Modelica package: parts, connections, parameters, and one block for each network.
 
@@ -38,18 +37,17 @@ def modelica(
         params: values and networks, such as ``fit.params``; by default those of the model.
         selfcontained: whether to write the parts of the library as classes, too, from acausal's equations, so that
             the file needs no library.
-        overwrite: whether the file may exist.
 
     Returns:
         The path.
 
     Raises:
         DataError: in one sentence, for parameters that do not fit, a network's operation that has no counterpart in
-            Modelica, or a path that exists.
+            Modelica, or what is no path of a file.
         ModelError: for an equation that Modelica cannot state.
     """
     need_double_precision()
-    target = new_file(path, "export.modelica", overwrite)
+    target = file_to_write(path, "export.modelica")
     from acausal.export.modelica_text import Package, class_name, package_of
     from acausal.export.modelica_text.standard import standard_connector, standard_part
 

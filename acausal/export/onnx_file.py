@@ -13,7 +13,7 @@ from acausal._jax import need_double_precision, precision
 from acausal.analysis import Observer
 from acausal.errors import need_package
 from acausal.export.target import Target, target_of, traced
-from acausal.files import new_file, write_files
+from acausal.files import file_to_write, write_files
 from acausal.system import System
 
 
@@ -29,7 +29,6 @@ def onnx(
     parameters: bool = False,
     batch: str | None = None,
     dtype: DTypeLike = "float64",
-    overwrite: bool = False,
 ) -> Path:
     """Write a network, or the right-hand side of a model, as an ONNX file.
 
@@ -52,18 +51,17 @@ def onnx(
             are the defaults.
         batch: the name of a leading dimension of all inputs but parameters, such as ``"N"``; by default there is none.
         dtype: ``"float64"`` or ``"float32"``. What is computed iteratively needs double precision.
-        overwrite: whether the file may exist.
 
     Returns:
         The path.
 
     Raises:
-        DataError: in one sentence, for an operation that has no counterpart in ONNX, an unknown name, a path that
-            exists, or if the package onnx is not installed.
+        DataError: in one sentence, for an operation that has no counterpart in ONNX, an unknown name, what is no
+            path of a file, or if the package onnx is not installed.
     """
     need_double_precision()
     real = precision(dtype)
-    file = new_file(path, "export.onnx", overwrite)
+    file = file_to_write(path, "export.onnx")
     need_package("onnx", "export.onnx", "export")
     from acausal.export.onnx_text import model_of
 

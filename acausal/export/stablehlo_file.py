@@ -16,7 +16,7 @@ from acausal._jax import need_double_precision, precision
 from acausal.analysis import Observer
 from acausal.errors import DataError, nearest, need_package, shown
 from acausal.export.target import Target, arguments, target_of
-from acausal.files import new_file, write_files
+from acausal.files import file_to_write, write_files
 from acausal.modeling import names_in
 from acausal.system import System
 
@@ -41,7 +41,6 @@ def stablehlo(
     dtype: DTypeLike = "float64",
     derivatives: int = 1,
     platforms: Sequence[str] = ("cpu",),
-    overwrite: bool = False,
 ) -> Path:
     """Write a network, or the right-hand side of a model, as StableHLO.
 
@@ -56,18 +55,17 @@ def stablehlo(
         path: the file, ``….jax``, ``….mlir`` or ``….mlirbc``.
         derivatives: how often a ``.jax`` can be differentiated.
         platforms: for which it is compiled: ``"cpu"``, ``"cuda"``, ``"rocm"``, ``"tpu"``.
-        overwrite: whether the file may exist.
 
     Returns:
         The path.
 
     Raises:
-        DataError: in one sentence, for an unknown name or ending, a path that exists, an operation that calls Python or
-            a library, or if the package flatbuffers is not installed.
+        DataError: in one sentence, for an unknown name or ending, what is no path of a file, an operation that
+            calls Python or a library, or if the package flatbuffers is not installed.
     """
     need_double_precision()
     real = precision(dtype)
-    file = new_file(path, "export.stablehlo", overwrite)
+    file = file_to_write(path, "export.stablehlo")
     if file.suffix not in ENDINGS:
         raise DataError(
             f"export.stablehlo: the ending '{file.suffix}' is no form; end the path in {', '.join(ENDINGS)}"

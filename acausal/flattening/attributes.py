@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar, cast
@@ -156,6 +157,12 @@ def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
     }
     if not isinstance(value, kinds[attribute]) or isinstance(value, np.complexfloating):
         raise DeclarationError(f"{where}: {attribute}={shown(value)} is of the wrong kind")
+    if isinstance(value, int) and abs(value) > sys.float_info.max:
+        raise DeclarationError(f"{where}: {attribute}={shown(value)} is too large")
+    if attribute == "state" and value not in STATE_SELECT:
+        raise DeclarationError(
+            f"{where}: state={shown(value)} must be one of {', '.join(STATE_SELECT)}"
+        )
     return value
 
 

@@ -49,6 +49,9 @@ of few formulas are compiled and run as they are written."""
 KEPT = (Relational, ModuleCall, sp.sign, sp.floor, sp.ceiling, sp.Heaviside)
 """Numbers in these stay numbers: they decide cases, or what a network is asked."""
 
+LONG = 8
+"""A sum of so many multiples of variables is read term by term, in the order in which they are declared. Rows of a
+matrix, whose numbers have signs and sizes of their own, are then of one shape."""
 
 EXACT = 2**53
 """Smaller whole numbers are exact as floating-point numbers."""
@@ -61,8 +64,9 @@ class EquationShape:
     Attributes:
         owner: the component that states it. sides: of the equation, or one expression.
         tree: what is left of the sides; a reference is its place in ``references``, a number that in ``numbers``.
-        numbers: each once, without its sign. references: each with the way to its owner.
-        where: how messages call the equation.
+        numbers: each once, without its sign; of a long sum those of all terms, with signs.
+        references: each with the way to its owner. where: how messages call the equation.
+        is_sum: whether it is a long sum.
     """
 
     owner: Component
@@ -71,6 +75,7 @@ class EquationShape:
     numbers: tuple[Number, ...]
     references: dict[Reference, tuple[str, ...]]
     where: Callable[[], str]
+    is_sum: bool
 
     @cached_property
     def key(self) -> Hashable:
@@ -156,8 +161,12 @@ class Templates:
             is_term = isinstance(node, sp.Add | sp.Mul)
             return node.func, tuple([tree(a, lifts, is_term) for a in node.args])
 
-        trees = tuple([tree(side, True, True) for side in sides])
-        return EquationShape(owner, sides, trees, tuple(numbers), found, where)
+        sums = _long_sums(sides)
+        if sums:
+            trees, given = _trees_of_sums(sums, place)
+        else:
+            trees, given = tuple([tree(side, True, True) for side in sides]), tuple(numbers)
+        return EquationShape(owner, sides, trees, given, found, where, bool(sums))
 
     def count(self, shape: EquationShape) -> None:
         """Count the numbers of an equation as a variant of its shape."""
@@ -202,6 +211,51 @@ class Templates:
         return index[_kind(reference)][reference.path]
 
 
+Sum = list[tuple[sp.Expr, Reference | None]]
+"""Numbers, and what each is multiplied by."""
+
+
+def _long_sums(sides: Sequence[Any]) -> list[Sum]:
+    """The sides of an equation as sums of multiples of references; none where they are anything else, or short."""
+    found: list[Sum] = []
+    for side in sides:
+        if not isinstance(side, sp.Expr):
+            return []
+        terms = [term.as_coeff_Mul() for term in sp.Add.make_args(side) if term != 0]
+        for number, rest in terms:
+            if not (_is_unit(number) or _magnitude(number)):
+                return []
+            if not (rest is sp.S.One or isinstance(rest, Reference)):
+                return []
+        own: Sum = [(n, r if isinstance(r, Reference) else None) for n, r in terms]
+        found.append(sorted(own, key=lambda term: term[1].serial if term[1] is not None else -1))
+    return found if sum(map(len, found)) >= LONG else []
+
+
+def _trees_of_sums(
+    sums: Sequence[Sum], place: Callable[[Reference], int]
+) -> tuple[tuple[Any, ...], tuple[Number, ...]]:
+    """The trees of long sums, and their numbers, with signs, all but those that are 1 or -1."""
+    numbers: list[Number] = []
+
+    def factor(number: Any) -> Any:
+        if _is_unit(number):
+            return type(number), number
+        numbers.append((type(number), float(number)))
+        return (sp.Number, True), len(numbers) - 1
+
+    def term(number: sp.Expr, reference: Reference | None) -> Any:
+        own = factor(number)
+        return own if reference is None else (sp.Mul, (own, place(reference)))
+
+    trees = tuple([(sp.Add, tuple([term(n, r) for n, r in one])) for one in sums])
+    return trees, tuple(numbers)
+
+
+def _is_unit(number: Any) -> bool:
+    return number is sp.S.One or number is sp.S.NegativeOne
+
+
 def _magnitude(node: sp.Basic) -> float | None:
     """The magnitude of a number that may be a constant; None for others, and for 0 and 1, which shape an equation."""
     if not isinstance(node, sp.Float | sp.Integer) or not abs(node) < EXACT:
@@ -234,7 +288,8 @@ def route_to(owner: Component, reference: Reference, where: Callable[[], str]) -
 def _read(shape: EquationShape, is_lifted: bool) -> _Read:
     """The template of ``left = right``, or with one side as residual; with constants in the place of its numbers."""
     where, routes = shape.where, shape.references
-    constants = [sp.Symbol(f"#{i}", positive=True) for i, _ in enumerate(shape.numbers)]
+    known = {"real": True, "nonzero": True} if shape.is_sum else {"positive": True}
+    constants = [sp.Symbol(f"#{i}", **known) for i, _ in enumerate(shape.numbers)]
     first, *others = _with_constants(shape, constants) if is_lifted else shape.sides
     residual: Any = _without_der(first - others[0] if others else first)
     _check_residual(residual, where)

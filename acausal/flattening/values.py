@@ -191,6 +191,10 @@ def module_values(layout: Layout) -> tuple[Callable[..., Any] | int, ...]:
                     f"{component._node.label} has no module '{name}'; give {name}=..."
                 )
             if isinstance(value, str):
+                if not hasattr(component, value):
+                    raise DeclarationError(
+                        f"{component._node.label}: the module '{name}' is '{value}', which names nothing in it"
+                    )
                 value = getattr(component, value)
             if isinstance(value, ModuleReference):  # a module of an enclosing component
                 owner = layout.position[id(value.symbol.owner)]

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from acausal.errors import DeclarationError, nearest
+from acausal.errors import DeclarationError, nearest, need_flag
 from acausal.fmu.archive import read
 from acausal.fmu.description import REAL, Conversion, Description, FMUVariable, read_description
 from acausal.fmu.fmu_view import as_html, as_text
@@ -30,8 +30,10 @@ from acausal.modeling import (
     Reinit,
     Variable,
     When,
+    by_name,
     der,
     initial,
+    names_in,
     native_file,
     pre,
     sample,
@@ -97,11 +99,15 @@ class FMU(Component):
         open_loop: bool = False,
         memory: int = 0,
     ) -> None:
+        given, seen = (
+            by_name(values, "FMU: values", "values by name"),
+            names_in(observe, "FMU: observe"),
+        )
         path = native_file(path)
         digest, folder = read(path)
-        description = read_description(folder, path, values or {})
+        description = read_description(folder, path, given)
         of = interface(description, kind)
-        chosen = Chosen(description, of, dict(values or {}), tuple(observe))
+        chosen = Chosen(description, of, given, seen)
         part = Part(
             str(Path(path).resolve()),
             digest,
@@ -112,7 +118,7 @@ class FMU(Component):
             tuple(v.name for v in chosen.results),
             of,
             communication_step(description, of, step),
-            open_loop,
+            need_flag(open_loop, "FMU: open_loop", DeclarationError),
             memory_size(of, memory, open_loop=open_loop) if chosen.inputs else 0,
         )
         values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")

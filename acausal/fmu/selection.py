@@ -17,7 +17,7 @@ def interface(description: Description, kind: Any) -> Interface:
         DeclarationError: for a kind that the FMU has not.
     """
     has: list[Interface] = [k for k in ("me", "cs") if description.library(k)]
-    if kind is not None and kind not in has:
+    if kind is not None and not (isinstance(kind, str) and kind in has):
         raise DeclarationError(
             f"FMU: '{description.model}' has {' and '.join(map(repr, has))}, not kind={shown(kind)}; "
             "'me' is model exchange, 'cs' co-simulation."

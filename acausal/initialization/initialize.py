@@ -25,7 +25,7 @@ from acausal.codegen import (
     read,
     root,
 )
-from acausal.errors import DataError, InitializationError, listing, nearest, shown
+from acausal.errors import DataError, InitializationError, listing, nearest, need_flag, shown
 from acausal.flattening import LeavesCaches
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
 from acausal.modeling import ByName, by_name, names_in
@@ -222,7 +222,7 @@ class Initializer(LeavesCaches):
                     x[i] = given[name]
                 else:
                     x = x.at[i].set(given[name])
-        x = array(x)
+        x, least_squares = array(x), need_flag(least_squares, "least_squares")
         is_given = np.asarray([n in given for n in self.names], dtype=bool)
         is_own = np.arange(len(self.names)) < self.reduced.n_independent  # guesses follow
         at_will = ~is_given & ~self.conditions.fixed & is_own

@@ -8,7 +8,7 @@ from types import ModuleType
 
 from acausal import netlist
 from acausal.errors import ModelError, listing, nearest, need_flag, shown
-from acausal.files import need_path
+from acausal.files import need_path, need_paths
 from acausal.modelica.build import class_of
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.tokens import ModelicaError
@@ -47,12 +47,13 @@ def load(
         raise ModelError(
             f"load(file, model) takes the name of a model, not {shown(model)}; libraries=[...] lists modules"
         )
+    folders = need_paths(path, "load", ModelError)
     if file.suffix != ".mo" and not file.is_dir():
         if model is not None:
             raise ModelError(f"{file.name} is a netlist, which is one model; leave out '{model}'")
         return netlist.load(file, libraries, budget=budget, allow_native=allow_native)
     allowed = Budget() if budget is None else budget
-    tree = Tree(netlist.libraries_of(libraries), [Path(p) for p in path])
+    tree = Tree(netlist.libraries_of(libraries), folders)
     native = need_flag(allow_native, "load: allow_native", ModelError)
     with spending(allowed, file.parent if native else None):
         nodes = tree.add(file / "package.mo" if file.is_dir() else file)

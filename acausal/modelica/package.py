@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal import netlist
 from acausal.errors import ModelError, nearest
-from acausal.files import need_path
+from acausal.files import need_path, need_paths
 from acausal.modelica.build import class_of
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.connectors import connector_class
@@ -96,7 +96,7 @@ def import_modelica(
         ModelError: for text that cannot be read or is wrong; a class is looked at when it is asked for.
     """
     file = need_path(source, "import_modelica", ModelError)
-    tree = Tree(netlist.libraries_of(libraries), [Path(p) for p in path])
+    tree = Tree(netlist.libraries_of(libraries), need_paths(path, "import_modelica", ModelError))
     if not file.exists() and file.suffix != ".mo":
         found = tree.resolve(file.name)
         if not isinstance(found, ClassNode):

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
-from acausal.errors import ConnectionError, DeclarationError, nearest
+from acausal.errors import ConnectionError, DeclarationError, nearest, need_text, shown
 from acausal.modeling.budget import charge
 from acausal.modeling.connector import Connector, check_name
 from acausal.modeling.declarations import Declaration, element_name
@@ -169,6 +169,11 @@ class Component:
                 on the one that goes.
             ConnectionError: if the new part lacks what is connected, or it is of another kind.
         """
+        if not isinstance(part, Component):
+            raise DeclarationError(
+                f"replace: {shown(part)} is not a component, such as {type(self).__name__}()."
+            )
+        need_text(path, "replace: path", DeclarationError)
         model = copy.deepcopy(self)
         replace_part(model._node, path, part._node)
         return model

@@ -5,13 +5,14 @@ A declaration is a class attribute. Read on an instance it becomes a reference (
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
-from acausal.errors import DeclarationError, shown
+from acausal.errors import DeclarationError, need_flag, need_text, shown
 from acausal.modeling.written import call_text
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
@@ -46,6 +47,10 @@ class Start:
         state: Any = self.state
         if state is not None and not (isinstance(state, str) and state in STATE_SELECT):
             raise DeclarationError(f"state={shown(state)} must be one of {', '.join(STATE_SELECT)}")
+        if self.fixed is not None:
+            need_flag(self.fixed, "fixed", DeclarationError)
+        if self.nominal is not None and not _is_number(self.nominal):
+            raise DeclarationError(f"nominal={shown(self.nominal)} must be a number")
 
 
 class Declaration:
@@ -63,6 +68,8 @@ class Declaration:
     def __init__(
         self, *, unit: str = "", shape: DeclaredShape = None, when: str | None = None, doc: str = ""
     ) -> None:
+        for name, text in {"when": "" if when is None else when, "doc": doc}.items():
+            need_text(text, name, DeclarationError)
         self.unit, self.when, self.doc = unit, when, doc
         self.shape: tuple[int | str, ...] | None = (
             shape if shape is None or isinstance(shape, tuple) else (shape,)
@@ -147,6 +154,7 @@ class Variable(Declaration):
         super().__init__(unit=unit, shape=shape, when=when, doc=doc)
         if not isinstance(tear, str) or tear not in TEAR_SELECT:
             raise DeclarationError(f"tear={shown(tear)} must be one of {', '.join(TEAR_SELECT)}")
+        need_text(state, "state", DeclarationError)
         self.start, self.fixed, self.nominal, self.state = start, fixed, nominal, state
         self.tear = tear
 
@@ -232,6 +240,13 @@ class Input(Variable):
         self.kind, self.default = kind, default
 
 
+def _is_number(value: Any) -> bool:
+    try:
+        return not isinstance(value, str | bytes) and math.isfinite(float(value))
+    except (TypeError, ValueError, OverflowError):
+        return False
+
+
 def _are_numbers(value: Any) -> bool:
     try:
         return np.asarray(value).dtype.kind in "biuf"
@@ -250,6 +265,8 @@ class Option(Declaration):
         self, default: Any, *, choices: tuple[Any, ...] | None = None, doc: str = ""
     ) -> None:
         super().__init__(doc=doc)
+        if not isinstance(choices, tuple | list | None):
+            raise DeclarationError(f"choices={shown(choices)} must be a tuple")
         self.default, self.choices = default, choices
 
 
@@ -274,6 +291,9 @@ class Module(Declaration):
         doc: str = "",
     ) -> None:
         super().__init__(unit=unit, doc=doc)
+        if not (isinstance(takes, tuple | list) and all(isinstance(u, str) for u in takes)):
+            raise DeclarationError(f"takes={shown(takes)} must be a tuple of units")
+        need_flag(data, "data", DeclarationError)
         self.default, self.takes, self.data = default, takes, data
 
 

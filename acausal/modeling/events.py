@@ -13,8 +13,9 @@ import sympy as sp
 from sympy.logic.boolalg import Boolean, BooleanAtom, BooleanFunction
 
 from acausal.errors import DeclarationError, shown
+from acausal.modeling.declarations import DependentParameter, Discrete, InitialParameter, Variable
 from acausal.modeling.functions import Floored, floor
-from acausal.modeling.symbols import HALF, Compared, Eq, Reference, number_or_expression
+from acausal.modeling.symbols import HALF, Compared, Eq, Reference, number_or_expression, time
 
 INITIAL = sp.Symbol("initial()", real=True)
 """1 while initial values are being found, else 0."""
@@ -218,9 +219,18 @@ def sample(start: Any, period: Any) -> Tick:
         start: the first instant [s]. period: from each to the next [s], positive.
 
     Raises:
-        DeclarationError: for a period that is a number, but not positive.
+        DeclarationError: for a period that is a number, but not positive, and for what varies in a simulation.
     """
     begin, length = (number_or_expression(v, "an argument of sample(...)") for v in (start, period))
+    for symbol in sorted((begin + length).free_symbols, key=str):
+        declared = symbol.declaration if isinstance(symbol, Reference) else None
+        constant = not isinstance(declared, Variable) or isinstance(
+            declared, InitialParameter | DependentParameter | Discrete
+        )
+        if symbol is time or not constant:
+            raise DeclarationError(
+                f"sample({begin}, {length}) needs what changes at events only; {symbol} varies in a simulation"
+            )
     if length.is_number and not length > 0:
         raise DeclarationError(f"sample(...) needs a period above zero, not {length}")
     return Tick(begin, length)

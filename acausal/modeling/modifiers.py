@@ -105,7 +105,11 @@ def _merge_start(node: Node[Any], name: str, start: Start) -> None:
 def start_of(where: str, value: Any) -> Start:
     """The start that a modifier gives: a `Start`, or a mapping of its attributes."""
     if isinstance(value, Start):
-        for element in np.ravel(np.asarray(value.value, dtype=object)):
+        try:
+            elements = np.ravel(np.asarray(value.value, dtype=object))
+        except TypeError:  # of one of JAX's keys
+            elements = ["a key"]
+        for element in elements:
             _check_start(where, element)
         return value
     if isinstance(value, Mapping):

@@ -170,7 +170,7 @@ class Node(Generic[C]):
 
     def _sizes(self, name: str, declared: Declaration) -> tuple[int, ...]:
         declared_sizes = cast(tuple[int | str, ...], declared.shape)
-        if ":" in declared_sizes:
+        if any(isinstance(n, str) and n == ":" for n in declared_sizes):
             value = self.modifiers.get(name, cast(Parameter, declared).default)
             if value is None:
                 raise DeclarationError(f"{self.label} has no value for '{name}'; give {name}=[...]")
@@ -188,9 +188,16 @@ class Node(Generic[C]):
         unknown = declared is not None and not isinstance(declared, Option)
         value: Any = size
         if isinstance(size, str) and not unknown:
+            if not hasattr(self.component, size):
+                raise DeclarationError(
+                    f"{self.label}.{name}: its size '{size}' names nothing in the component"
+                )
             value = getattr(self.component, size)
         try:
-            return operator.index(value)
+            found = operator.index(value)
+            if abs(found) >= 2**63:
+                raise TypeError
+            return found
         except TypeError:
             given = f"'{size}', which is {type(declared).__name__}" if unknown else shown(value)
             raise DeclarationError(

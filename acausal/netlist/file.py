@@ -45,7 +45,7 @@ def read(path: Path) -> dict[str, Any]:
         if path.stat().st_size > MAX_BYTES:
             raise NetlistError(f"{where}: larger than {MAX_BYTES // 1_000_000} MB")
         document = json.loads(
-            path.read_text(encoding="utf-8"),
+            path.read_text(encoding="utf-8-sig"),
             object_pairs_hook=_unique,
             parse_constant=unfit.constant,
             parse_float=unfit.float,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from acausal.errors import DeclarationError
-from acausal.networks.activations import SMOOTH, SMOOTH_AND_CONVEX, checked
+from acausal.errors import DeclarationError, need_whole
+from acausal.networks.activations import SMOOTH, SMOOTH_AND_CONVEX
 from acausal.networks.energy_parts import Bowl, FromRest, Levelled, WithMinCurvature
 from acausal.networks.extrapolation import ContinuedEnergy
 from acausal.networks.law_parts import Even, start_at
@@ -74,14 +74,14 @@ class Energy(NetworkSpec):
     @property
     def in_size(self) -> int:
         """Number of all inputs."""
-        return self.inputs + self.secondary
+        return need_whole(self.inputs, "inputs", DeclarationError, 1) + self.secondary
 
     @property
     def rho(self) -> str:
         """The activation: by default tanh, and softplus for convex energies."""
         if self.convex:
-            return checked(self.activation or "softplus", SMOOTH_AND_CONVEX, "a convex energy")
-        return checked(self.activation or "tanh", SMOOTH, "an energy, whose derivative is the law")
+            return self.activation_of("softplus", SMOOTH_AND_CONVEX, "a convex energy")
+        return self.activation_of("tanh", SMOOTH, "an energy, whose derivative is the law")
 
     def __call__(self, key: Key) -> EnergyLaw:
         """An energy with fresh weights."""

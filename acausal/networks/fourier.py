@@ -30,6 +30,8 @@ class Fourier(eqx.Module):
         harmonics = need_whole(harmonics, "Fourier: harmonics", DeclarationError, 1)
         if not (is_number(period) and period > 0):
             raise DeclarationError(f"Fourier: period={shown(period)}; give a positive number.")
+        if not is_number(output_scale):
+            raise DeclarationError(f"Fourier: output_scale={shown(output_scale)}; give a number.")
         self.sines, self.cosines = jnp.zeros(harmonics), jnp.zeros(harmonics)
         self.period, self.output_scale = float(period), output_scale
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from acausal.errors import DeclarationError
-from acausal.networks.activations import INCREASING, checked
+from acausal.networks.activations import INCREASING
 from acausal.networks.extrapolation import Continued
 from acausal.networks.law_parts import (
     Even,
@@ -85,8 +85,8 @@ class Law(NetworkSpec):
     def rho(self) -> str:
         """The activation: by default ReLU, as in the paper."""
         if self.monotone:
-            return checked(self.activation or "relu", INCREASING, "a monotone network")
-        return checked(self.activation or "relu")
+            return self.activation_of("relu", INCREASING, "a monotone network")
+        return self.activation_of("relu")
 
     def __call__(self, key: Key) -> MLP | Scaled:
         """A network with fresh weights."""

@@ -20,6 +20,9 @@ from acausal.networks.activations import ACTIVATIONS, checked
 LARGEST = 10_000
 """Neurons in a layer, or layers: more are a mistake, and fill the memory."""
 
+MOST = 10_000_000
+"""Weights of a network: their first values take up to half a gigabyte."""
+
 SPREAD = 2.0
 """Bound of the first layer's weights and biases."""
 
@@ -160,9 +163,12 @@ def check_sizes(
     for name, size, least in sizes:
         if need_whole(size, f"a network's {name}", DeclarationError, least) > LARGEST:
             raise DeclarationError(f"a network's {name}={size}; give {LARGEST} or less.")
-    charge(
-        "elements", width * (in_size + width * depth), f"a network of width {width}, depth {depth}"
-    )
+    weights = width * (in_size + width * depth)
+    charge("elements", weights, f"a network of width {width}, depth {depth}")
+    if weights > MOST:
+        raise DeclarationError(
+            f"a network of width={width} and depth={depth} has {weights:,} weights; give {MOST:,} or less."
+        )
     if isinstance(input_scale, tuple) and len(input_scale) != in_size:
         raise DeclarationError(f"{len(input_scale)} input scales for {in_size} inputs")
     scales = *(input_scale if isinstance(input_scale, tuple) else (input_scale,)), output_scale

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, Literal, TypedDict, get_args
 
 from acausal._jax import is_number
-from acausal.errors import DeclarationError, need_whole, shown
+from acausal.errors import DeclarationError, need_flag, need_whole, shown
+from acausal.networks.activations import ACTIVATIONS, checked
 from acausal.networks.extrapolation import Extrapolation, check_limits
 from acausal.networks.mlp import Key, Scale, check_sizes
 
@@ -70,17 +71,20 @@ class NetworkSpec:
     def __post_init__(self) -> None:
         for name, known in (("zero_crossing", ZeroCrossing), ("extrapolation", Extrapolation)):
             value, choices = getattr(self, name), get_args(known)
-            if value is not None and value not in choices:
+            if value is not None and not (isinstance(value, str) and value in choices):
                 raise DeclarationError(
                     f"{name}={shown(value)} must be one of {', '.join(map(repr, choices))}"
                 )
         need_whole(self.secondary, "secondary", DeclarationError, 0)
+        for each in fields(self):
+            if isinstance(each.default, bool):
+                need_flag(getattr(self, each.name), each.name, DeclarationError)
         inner, outer = self.scales
         check_sizes(self.in_size, self.width, self.depth, inner, outer)
         for name, value in (("floor", self.floor), ("start", self.start)):
             if not (is_number(value) and value >= 0):
                 raise DeclarationError(
-                    f"{name}={value} is a derivative of an increasing law; give zero or more"
+                    f"{name}={shown(value)} is a derivative of an increasing law; give zero or more"
                 )
         limits = self.limits if isinstance(self.limits, tuple) else (self.limits,) * 2
         if self.limits is not None and not (len(limits) == 2 and all(map(is_number, limits))):
@@ -98,6 +102,12 @@ class NetworkSpec:
         for name in ("floor", "start"):
             if getattr(self, name):
                 self.check_bound(name)
+
+    def activation_of(
+        self, default: str, allowed: tuple[str, ...] = tuple(ACTIVATIONS), use: str = ""
+    ) -> str:
+        """The activation that was given, or the default, if it is one of those allowed."""
+        return checked(default if self.activation is None else self.activation, allowed, use)
 
     @property
     def scales(self) -> tuple[Scale, float]:

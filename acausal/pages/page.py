@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from acausal.errors import DataError, shown
+from acausal.errors import DataError, need_text, shown
 from acausal.files import need_path, write_files
 from acausal.modeling import Component
 from acausal.pages.components import MOST_CARDS, Known, component_cards, schematic
@@ -84,7 +84,7 @@ def model_content(subject: System | Solution, title: str = "") -> PageContent:
     else:
         known = Known(system.pack())
     return PageContent(
-        title or system.flat.name,
+        need_text(title, "title") or system.flat.name,
         summary(system),
         schematic(system.model),
         component_cards(system, known),

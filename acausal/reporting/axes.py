@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from acausal.errors import AcausalError, DataError, need_package, shown
 
@@ -57,7 +58,10 @@ def several_axes(given: Any, size: tuple[float, float], n: int, wanted: str) -> 
     """
     if given is None:
         return new_axes(size, n)
-    found = [need_axes(ax, "axes") for ax in (given if isinstance(given, Iterable) else [given])]
+    found = [
+        need_axes(ax, "axes")
+        for ax in (given if isinstance(given, list | tuple | np.ndarray) else [given])
+    ]
     if len(found) != n:
         raise DataError(f"axes: there are {len(found)}; give {wanted}.")
     return found

@@ -96,10 +96,10 @@ def simulate(
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
             it goes on with BDF from where stability, and not accuracy, limits the steps: where the model is stiff.
             ``"stiff"`` is implicit from the start: BDF, Kvaerno5 with events, and Kvaerno3 in fixed steps.
-        rtol: relative tolerance of an adaptive step.
-        atol: absolute tolerance of an adaptive step, in the states' units; by default 1e-8, and where all states of a
-            unit stay below 1e-4, 1e-8 of the largest: then the simulation is made again. Where JAX traces it, as in
-            `jax.jit` and `jax.grad`, that cannot be seen: give ``atol`` there.
+        rtol: relative tolerance of an adaptive step, one for all or an array with one each; 0 leaves ``atol`` alone.
+        atol: absolute tolerance of an adaptive step, in the states' units, above 0, one for all or an array; by default
+            1e-8, and where all states of a unit stay below 1e-4, 1e-8 of the largest: then the simulation is made
+            again. Where JAX traces it, as in `jax.jit` and `jax.grad`, that cannot be seen: give ``atol`` there.
         max_steps: limit of adaptive steps. Each edge of a source allows eight more.
         max_step: the longest adaptive step, in seconds; by default a fiftieth of the span, ``inf`` for none. Steps end
             where sources and tables jump or bend, take at most an eighth of the period of a sine of time, and are
@@ -278,7 +278,7 @@ def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray
         raise DataError("saveat is empty; give the times to save, or leave it out.")
     if ts.ndim != 1 or np.any(~(np.diff(ts) > 0)):
         raise DataError("saveat does not increase; give times in seconds, one after the other.")
-    outside = ts[(ts < start) | (ts > end)]
+    outside = ts[~((ts >= start) & (ts <= end))]
     if len(outside):
         raise DataError(f"saveat has {outside[0]:g} s; give times from {start:g} to {end:g} s.")
     return ts

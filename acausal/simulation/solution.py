@@ -165,7 +165,7 @@ class Solution(ByName):
 
     def unit(self, name: str) -> str:
         """Unit of a variable, in Modelica's spelling; ``"s"`` for ``time``."""
-        return "s" if name == "time" else self.system.unit(name)
+        return "s" if isinstance(name, str) and name == "time" else self.system.unit(name)
 
     def to_dict(self, names: Iterable[str] | None = None) -> dict[str, Float[np.ndarray, " n"]]:
         """Time and variables (by default all) as arrays, under ``time`` and their names; patterns as for `plot`."""

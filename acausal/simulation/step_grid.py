@@ -27,7 +27,7 @@ def memory() -> float:
         return UNKNOWN_MEMORY
 
 
-def _amount(size: float) -> str:
+def in_bytes(size: float) -> str:
     """Bytes as text."""
     power = min(int(min(np.log2(size), 1024)) // 10, len(UNITS) - 1)
     return f"{size / 1024**power:.3g} {UNITS[power]}"
@@ -48,8 +48,8 @@ def step_ends(start: float, end: float, dt: float, width: int) -> Float[np.ndarr
     span = end - start
     if (needed := 8.0 * width * (span / dt)) > memory():
         raise DataError(
-            f"dt={dt:g} s makes {span / dt:.3g} steps from {start:g} to {end:g} s, which need {_amount(needed)} of "
-            f"memory where there are {_amount(memory())}; choose a longer dt, or leave it out for adaptive steps."
+            f"dt={dt:g} s makes {span / dt:.3g} steps from {start:g} to {end:g} s, which need {in_bytes(needed)} of "
+            f"memory where there are {in_bytes(memory())}; choose a longer dt, or leave it out for adaptive steps."
         )
     n = max(round(span / dt), 1)
     if abs(span / dt - n) > ON_GRID * n:

@@ -22,6 +22,7 @@ from acausal.errors import (
     need_compiled,
     need_flag,
     need_package,
+    need_text,
     need_whole,
     shown,
     user_level,
@@ -31,6 +32,7 @@ from acausal.modeling import ByName, by_name, names_in, names_matching
 from acausal.simulation.simulate import simulate
 from acausal.simulation.small_states import with_small_states
 from acausal.simulation.solution import Solution
+from acausal.simulation.step_grid import in_bytes, memory
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -154,7 +156,7 @@ class Sweep(ByName):
         from acausal.reporting import plot_variants
 
         first, values = next(iter(self.over.items()))
-        lines = np.asarray(self[name]).reshape(-1, len(self.t))
+        lines = np.asarray(self._column(need_text(name, "name"))).reshape(-1, len(self.t))
         levels = np.repeat(values, len(lines) // len(values))
         labels = (_label(name, self.unit(name)), _label(first, self.unit(first)))
         return plot_variants(np.asarray(self.t), lines, levels, labels, ax=ax)
@@ -168,7 +170,8 @@ class Sweep(ByName):
 
     def _side_by_side(self, names: tuple[str, ...]) -> Float[Array, "... n_names"]:
         found = self._read(names)
-        return jnp.stack([found[name] for name in names], axis=-1)
+        columns = [found[name] for name in names]
+        return jnp.stack(columns, axis=-1) if columns else jnp.zeros((*self.shape, 0))
 
     def _read(self, names: tuple[str, ...]) -> dict[str, Array]:
         new = tuple(name for name in names if name not in self._columns)
@@ -228,6 +231,7 @@ def sweep(
             f"over={shown(over)} are not values by name, such as {{'r.R': [1.0, 2.0]}}."
         )
     values = {name: _values(system, name, over[name]) for name in names_in(over, "over")}
+    _check_size(system, values, need_flag(grid, "sweep: grid"), options.get("saveat"))
     columns = _variants(values, grid)
     roles = {name: _role(system, name) for name in values}
     common = {"params": params, "inputs": inputs, "x0": x0}
@@ -328,11 +332,29 @@ def _values(system: System, name: str, given: ArrayLike) -> Float[np.ndarray, " 
     return values
 
 
+def _check_size(
+    system: System, values: Mapping[str, Float[np.ndarray, " n"]], grid: bool, saveat: Any
+) -> None:
+    """Refuse more variants than this machine's memory holds.
+
+    Raises:
+        DataError: for them.
+    """
+    lengths = list(map(len, values.values()))
+    count, rows = prod(lengths) if grid else max(lengths), 2 if saveat is None else np.size(saveat)
+    needed = 8.0 * count * (len(values) + (1 + len(system.states)) * rows)
+    if needed > memory():
+        raise DataError(
+            f"over: {count:.3g} variants need {in_bytes(needed)} of memory or more where there are "
+            f"{in_bytes(memory())}; vary fewer values."
+        )
+
+
 def _variants(
     values: Mapping[str, Float[np.ndarray, " n"]], grid: bool
 ) -> dict[str, Float[np.ndarray, " n_variants"]]:
     """The value of every name in every variant."""
-    if need_flag(grid, "sweep: grid"):
+    if grid:
         meshes: Sequence[np.ndarray] = np.meshgrid(*values.values(), indexing="ij")
         return {name: mesh.ravel() for name, mesh in zip(values, meshes, strict=True)}
     lengths = {name: len(column) for name, column in values.items()}

@@ -180,7 +180,7 @@ def _no_divisor(system: Equations, equation: int, column: int) -> str:
     names = [system.model.layout.parameter(p) for p in system.divisors(equation, column)]
     unknown = system.name(system.variables[equation][column])
     return (
-        f"'{unknown}' cannot be computed from {system.describe(equation)}: its factor there is zero "
+        f"'{unknown}' cannot be computed from {system.describe(equation)}: its factor there is zero, or no number, "
         f"because of {listing(names)}; give another value"
     )
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acausal.errors import DataError, listing
+from acausal._jax import is_number
+from acausal.errors import DataError, listing, shown
 from acausal.training.record_fit import RecordFit
 from acausal.training.uncertainty.residuals import correlation_time
 
@@ -60,8 +61,10 @@ def conformal(
     Raises:
         DataError: if the record is too short for the level, or lacks what is needed.
     """
-    if not 0 < level < 1:
-        raise DataError(f"level={level:g} is not a share of the samples; give a number in (0, 1).")
+    if not (is_number(level) and 0 < level < 1):
+        raise DataError(
+            f"level={shown(level)} is not a share of the samples; give a number in (0, 1)."
+        )
     found = list(records.values())
     if not all(np.isfinite(one.predicted).all() for one in found):
         raise DataError("The trained model diverges over the record; it has no bands.")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 import numpy as np
 
 from acausal.data import RecordsLike, records_of
-from acausal.errors import TrainingError, need_compiled
+from acausal.errors import TrainingError, need_compiled, need_text
 from acausal.files import need_path
 from acausal.pages import write_page
 from acausal.reporting import PageContent, aligned, table
@@ -170,7 +170,7 @@ class CrossValidation:
         }
         return several_content(
             first,
-            title or "Cross-validation",
+            need_text(title, "title") or "Cross-validation",
             self.summary(),
             table(self._header, self._rows()),
             {"What was left out": [*record_blocks(first, self.records, {}, remarks=remarks)]},

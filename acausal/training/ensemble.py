@@ -13,7 +13,7 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data, RecordsLike, Stream
-from acausal.errors import DataError, TrainingError, need_compiled, need_whole, shown
+from acausal.errors import DataError, TrainingError, need_compiled, need_text, need_whole, shown
 from acausal.files import need_path
 from acausal.networks import law_at
 from acausal.pages import write_page
@@ -135,7 +135,7 @@ class Ensemble:
         ]
         return several_content(
             best,
-            title or "Ensemble",
+            need_text(title, "title") or "Ensemble",
             lead,
             table(("member", "loss before", "after", "deciding loss"), rows),
             {

@@ -16,6 +16,7 @@ from acausal._jax import compiled, is_number, levenberg_marquardt, value_and_jac
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, listing, nearest, shown
 from acausal.jobs import Workers, blocks, need_workers, on_workers
+from acausal.modeling import by_name
 from acausal.training.conformal import Conformal
 from acausal.training.objective.held_out import over
 from acausal.training.objective.initial_state import InitialState, by_record, check_records
@@ -105,7 +106,7 @@ def _own_given(
     Raises:
         DataError: for a name that is no record.
     """
-    given: Mapping[str, Any] = params or {}
+    given = by_name(params, "params", "values by name, or by record")
     if not any(isinstance(v, Mapping) for v in given.values()):
         return dict.fromkeys(records, given)
     for record in given:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from acausal.errors import DataError, nearest
+from acausal.errors import known_name, need_text
 from acausal.files import csv_text, need_path, write_files
 from acausal.pages import schematic, write_page
 from acausal.reporting import (
@@ -117,9 +117,7 @@ class Predictions(Mapping[str, Prediction]):
     system: System
 
     def __getitem__(self, name: str) -> Prediction:
-        if name not in self.records:
-            raise DataError(f"There is no record '{name}': {nearest(name, self.records)}")
-        return self.records[name]
+        return self.records[known_name(name, self.records, "There is no record")]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.records)
@@ -163,7 +161,7 @@ class Predictions(Mapping[str, Prediction]):
         many = f"{count} records predicted, each in one simulation."
         lead = "1 record predicted in one simulation." if count == 1 else many
         return PageContent(
-            title or "Prediction",
+            need_text(title, "title") or "Prediction",
             lead,
             schematic(self.system.model),
             (),

@@ -17,8 +17,8 @@ import numpy as np
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import levenberg_marquardt
-from acausal.errors import TrainingError, nearest, shown
+from acausal._jax import is_number, levenberg_marquardt
+from acausal.errors import TrainingError, known_name, need_whole, shown
 from acausal.reporting import LEARNED, TRUTH, one_axes
 from acausal.training.member import stacked
 from acausal.training.objective.modifiers import Bounded, Shift
@@ -228,17 +228,16 @@ def profile(
 
 def _check(problem: Problem, name: str, points: int, width: float, level: float) -> None:
     names = problem.modifiers.names
-    if name not in names:
+    if not names:
         raise TrainingError(
-            f"profile: '{name}' is not a parameter that was trained: {nearest(name, names)}"
-            if names
-            else f"profile: '{name}' was not trained; no parameter was, see modifiers=."
+            f"profile: {shown(name)} was not trained; no parameter was, see modifiers=."
         )
-    if points != int(points) or points < 5 or points % 2 == 0:
+    known_name(name, names, "profile: no parameter was trained that is", TrainingError)
+    if need_whole(points, "profile: points", TrainingError) < 5 or points % 2 == 0:
         raise TrainingError(f"profile: points={shown(points)}; give an odd number, 5 or more.")
-    if not 0 < width < math.inf:
+    if not (is_number(width) and width > 0):
         raise TrainingError(f"profile: width={shown(width)}; give a number of standard deviations.")
-    if not 0 < level < 1:
+    if not (is_number(level) and 0 < level < 1):
         raise TrainingError(f"profile: level={shown(level)}; give a number between 0 and 1.")
 
 

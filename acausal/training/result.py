@@ -12,6 +12,7 @@ import numpy as np
 
 from acausal.analysis import Distilled, distill
 from acausal.data import RecordsLike
+from acausal.errors import need_text
 from acausal.files import need_path
 from acausal.jobs import Workers
 from acausal.networks import remove_offset
@@ -215,7 +216,7 @@ class Fit(TrainedModel):
 
     def page_content(self, title: str = "", profiles: Sequence[Profile] = ()) -> PageContent:
         """All that the page of the training shows; arguments as of `report`."""
-        return fit_content(self, self.verdict, title or "Training", profiles)
+        return fit_content(self, self.verdict, need_text(title, "title") or "Training", profiles)
 
     def export(
         self,
@@ -223,7 +224,6 @@ class Fit(TrainedModel):
         *,
         confidence: Confidence | None = None,
         notes: Mapping[str, object] | None = None,
-        overwrite: bool = False,
         **options: Any,
     ) -> Path:
         """Write the trained model for other tools, and a model card beside it.
@@ -237,7 +237,6 @@ class Fit(TrainedModel):
             path: of the file.
             confidence: from `confidence`, to tell how well laws and parameters are known.
             notes: further lines of the card, by title, such as ``{"loss of the linear model": 0.44}``.
-            overwrite: whether files of these names may be replaced.
             options: of the function that writes this form, such as ``outputs=["body.a"]``; ``ranges={}`` leaves the
                 flag out.
 
@@ -247,7 +246,7 @@ class Fit(TrainedModel):
         Raises:
             DataError, ExportError: for an unknown ending, or as the function for this form does.
         """
-        return export_with_card(self, path, confidence, notes, overwrite, options)
+        return export_with_card(self, path, confidence, notes, options)
 
     def remove_offset(self) -> dict[str, Any]:
         """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""

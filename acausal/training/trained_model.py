@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
-from acausal.errors import TrainingError, nearest
+from acausal.errors import TrainingError, known_name, need_whole
 from acausal.training.history import History
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.problem import Problem
@@ -175,6 +175,8 @@ class TrainedModel:
         Raises:
             TrainingError: for a name that is not a record, or if the model diverges over a record.
         """
+        if record is not None:
+            known_name(record, self.problem.records.names, "There is no record", TrainingError)
         if record not in self._confidences:
             problem = self.problem if record is None else self._alone(record)
             self._confidences[record] = confidence(problem, self.trained, self.arguments)
@@ -187,8 +189,6 @@ class TrainedModel:
     def _alone(self, record: str) -> Problem:
         """The problem in which one record alone counts."""
         known = self.problem.records
-        if record not in known.names:
-            raise TrainingError(f"There is no record '{record}': {nearest(record, known.names)}")
         counts = (known.of == known.names.index(record))[:, None]
         return replace(
             self.problem,
@@ -202,10 +202,12 @@ class TrainedModel:
         Raises:
             TrainingError: for a name that is not a record.
         """
-        if record is not None and record not in self.records:
-            raise TrainingError(f"There is no record '{record}': {nearest(record, self.records)}")
-        chosen = list(self.records.values()) if record is None else [self.records[record]]
-        return residuals_of(chosen)
+        names = (
+            self.records
+            if record is None
+            else (known_name(record, self.records, "There is no record", TrainingError),)
+        )
+        return residuals_of([self.records[name] for name in names])
 
     @cached_property
     def before(self) -> dict[str, RecordFit]:
@@ -216,7 +218,7 @@ class TrainedModel:
     def samples(self, network: str, most: int = 400) -> Float[np.ndarray, " n_samples"]:
         """Some of the values that a network's first argument had over the record, at most so many."""
         values = self.arguments[self.need_network(network)][:, 0]
-        return values[:: max(1, len(values) // most)]
+        return values[:: max(1, len(values) // need_whole(most, "most", least=1))]
 
     def need_network(self, network: str) -> str:
         """The name of a trained network.
@@ -224,11 +226,7 @@ class TrainedModel:
         Raises:
             TrainingError: for any other name.
         """
-        if network not in self.seen:
-            raise TrainingError(
-                f"There is no trained network '{network}': {nearest(network, self.seen)}"
-            )
-        return network
+        return known_name(network, self.seen, "There is no trained network", TrainingError)
 
     @property
     def ranges(self) -> dict[str, tuple[tuple[float, float], ...]]:

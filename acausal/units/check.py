@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.errors import UnitError, shortened
+from acausal.errors import UnitError, shortened, shown
 from acausal.flattening import (
     Binding,
     EquationGroup,
@@ -99,6 +99,9 @@ def _misspelt(layout: Layout) -> Iterator[str]:
     for name, declaration in _declarations(layout):
         takes = declaration.takes if isinstance(declaration, Module) else ()
         for unit in (declaration.unit, *takes):
+            if not isinstance(unit, str):
+                yield f"{name}: {shown(unit)} is not a unit; a text is needed"
+                continue
             try:
                 dimension(unit)
             except UnitError as e:

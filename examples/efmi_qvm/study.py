@@ -61,7 +61,7 @@ def ship(fit: ac.Fit, data: ac.Data, solver: str, out: Path, command: str | None
     """Write the vehicle as C that takes steps of a method; returns sizes and, where it can run, errors."""
     files = ac.export.c(
         fit.system, out / solver, fit.params, name="vehicle", outputs=OUTPUTS, solver=solver,
-        derivatives=False, overwrite=True,
+        derivatives=False,
     )  # fmt: skip
     controller = Controller(*files, command)
     report: dict[str, Any] = controller.sizes()

@@ -90,7 +90,7 @@ def export_all(console: Console, trained: ac.Fit, out: Path, **card: Any) -> lis
         with console.status(f"writing {path}"):
             begin = time.perf_counter()
             try:
-                trained.export(path, overwrite=True, **card, **options)
+                trained.export(path, **card, **options)
             except ac.AcausalError as error:
                 missing.append(str(error))
                 path.unlink(missing_ok=True)  # that of an earlier run

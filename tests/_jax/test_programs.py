@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+import subprocess
+import sys
 import weakref
 from typing import Any
 
@@ -15,6 +17,7 @@ import acausal as ac
 from acausal._jax import compile_ahead, compiled
 from tests.support.counted import compilations
 from tests.support.parts import Equations
+from tests.support.paths import ROOT
 
 
 def test_one_program_serves_equal_shapes_and_constants() -> None:
@@ -78,3 +81,31 @@ def test_models_that_are_gone_leave_nothing_behind(monkeypatch: pytest.MonkeyPat
     gc.collect()
     assert first is not None
     assert first() is None
+
+
+CYCLES = """
+import gc, resource, sys
+import numpy as np
+import acausal as ac
+from acausal._jax import programs
+from tests.support.parts import Equations
+
+programs.MOST = 8
+for i in range(100):
+    system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), -s.x)]))
+    np.asarray(ac.simulate(system, (0, (i + 3) * 0.01), dt=0.01, solver="rk4", x0={"x": 1.0})["x"])
+    if i in (29, 99):
+        gc.collect()
+        print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**(20 if sys.platform == "darwin" else 10))
+"""
+
+
+@pytest.mark.slow
+def test_a_process_that_compiles_and_simulates_all_day_does_not_fill_the_memory() -> None:
+    """Each model and each length of runs is a program of 2 MB; of one that is not kept a tenth remains."""
+    pytest.importorskip("resource")
+    run = subprocess.run(
+        [sys.executable, "-c", CYCLES], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    before, after = map(float, run.stdout.split())
+    assert (after - before) / 70 < 0.5, "MB for each cycle"

@@ -168,6 +168,9 @@ def test_values_with_which_no_model_runs_are_not_loaded(tmp_path: Path):
         UserWarning, match="'mass.m' is -1, but must be at least 0 kg; no simulation"
     ):
         assert ac.load_params(path, plain())["mass.m"] == -1.0
+    for same in (2, True, np.float32(2.0)):
+        ac.save_params({**params, "mass.m": same}, path)
+        assert ac.load_params(path, plain())["mass.m"] == same
     ac.save_params({"limit": math.inf}, path)
     assert ac.load_params(path, {"limit": np.inf}) == {"limit": np.inf}
 

@@ -327,19 +327,16 @@ def test_states_that_have_run_away_are_refused(tmp_path: Path, solver: str) -> N
 
 def test_wrong_calls_are_refused(tmp_path: Path) -> None:
     system = ac.compile(Rectifier())
-    ac.export.c(system, tmp_path)
-    with pytest.raises(ac.DataError, match="exists; give another path, or overwrite=True"):
-        ac.export.c(system, tmp_path)
     with pytest.raises(ac.DataError, match="is no name in C"):
         ac.export.c(system, tmp_path, name="2 fast")
     with pytest.raises(ac.DataError, match="name='double' is a word of C"):
         ac.export.c(system, tmp_path, name="double")
     with pytest.raises(ac.ModelError, match="diode"):
-        ac.export.c(system, tmp_path, outputs=["dioda.i"], overwrite=True)
+        ac.export.c(system, tmp_path, outputs=["dioda.i"])
     with pytest.raises(ac.ExportError, match="has no steps in C"):
-        ac.export.c(system, tmp_path, solver="bdf", overwrite=True)
+        ac.export.c(system, tmp_path, solver="bdf")
     with pytest.raises(ac.DataError, match="dtype="):
-        ac.export.c(system, tmp_path, dtype=np.int32, overwrite=True)
+        ac.export.c(system, tmp_path, dtype=np.int32)
 
 
 @pytest.mark.slow

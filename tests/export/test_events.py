@@ -256,7 +256,7 @@ def test_steps_are_short_enough_after_a_condition_has_changed(tmp_path: Path) ->
     assert float(need_fmpy().read_model_description(str(path)).defaultExperiment.stepSize) <= 1e-4
     says = "0.001 s are too long for 'rk4' .* where a condition is not what it is at the start"
     with pytest.warns(UserWarning, match=says):
-        ac.export.fmu(system, path, step=1e-3, overwrite=True)
+        ac.export.fmu(system, path, step=1e-3)
     messages: list[str] = []
     fmu = Unpacked(path, "3.0")
     with fmu.instance("CoSimulation", messages) as instance:

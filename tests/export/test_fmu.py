@@ -586,8 +586,6 @@ def test_wrong_calls_are_refused(vehicle: ac.System, tmp_path: Path) -> None:
     refused(ac.DataError, "is no length of a step", step=0)
     refused(ac.DataError, "is kept for FMI's files", name="fmu_instance")
     refused(ac.ExportError, "has no steps in C", solver="bdf")
-    ac.export.fmu(vehicle, path, binary=False)
-    refused(ac.DataError, "exists; give another path, or overwrite=True")
 
 
 def test_the_file_of_a_model_names_it_and_its_times(tmp_path: Path) -> None:

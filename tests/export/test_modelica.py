@@ -199,13 +199,6 @@ def test_names_of_the_standard_library_parse(case, rumoca, tmp_path):
     assert not [d for d in rumoca.validate_source(text) if d.level == "error"]
 
 
-def test_a_path_that_exists_is_refused(tmp_path):
-    path = tmp_path / "a.mo"
-    path.write_text("")
-    with pytest.raises(ac.DataError, match=r"exists; give another path, or overwrite=True"):
-        ac.export.modelica(RC(), path)
-
-
 def test_a_host_callback_is_named(tmp_path):
     def law(x):
         return jax.pure_callback(np.sin, jax.ShapeDtypeStruct((), float), x)

@@ -54,7 +54,7 @@ def test_c_tells_whether_an_argument_has_left_its_range(vehicle: ac.System, tmp_
 def test_without_ranges_there_is_no_flag(vehicle: ac.System, tmp_path: Path) -> None:
     header, _ = ac.export.c(vehicle, tmp_path)
     assert "outside" not in header.read_text()
-    header, _ = ac.export.c(vehicle, tmp_path, ranges={}, overwrite=True)
+    header, _ = ac.export.c(vehicle, tmp_path, ranges={})
     assert "outside" not in header.read_text()
 
 

@@ -779,6 +779,32 @@ def test_units_of_equations_with_constants_are_checked_with_their_numbers():
         check_dimensions(flatten(model(**parts)))
 
 
+class Rows(ac.Component):
+    """A dense system of equations, whose numbers have signs and sizes of their own; the first unknown's are whole."""
+
+    N = FEW_VARIANTS + 2
+    A = np.random.default_rng(0).normal(size=(N, N)) + 3 * np.eye(N)
+    A[:, 0] = np.arange(N) % 3 + 2.0
+    x = ac.Variable(start=0.5, fixed=True)
+    z = ac.Variable(shape=(N,))
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), -self.x)
+        for i, row in enumerate(self.A):
+            given = [int(row[0]), *row[1:].tolist()]
+            terms = sum(a * z for a, z in zip(given, self.z, strict=True))
+            yield ac.Eq(terms - self.x, i - 14.0)
+
+
+def test_rows_of_a_matrix_are_one_equation_whatever_their_signs():
+    system = ac.compile(Rows())
+    assert len({g.template for g in system.flat.groups}) == 2
+    run = ac.simulate(system, (0.0, 0.1), dt=0.1)
+    given = np.arange(Rows.N) - 14.0 + 0.5
+    found = [float(run[f"z[{i + 1}]"][0]) for i in range(Rows.N)]
+    np.testing.assert_allclose(found, np.linalg.solve(Rows.A, given), rtol=1e-12)
+
+
 def test_whole_numbers_stay_exact_and_apart_from_others():
     system = ac.compile(
         model(

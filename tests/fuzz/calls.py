@@ -452,10 +452,10 @@ options(
             "complex": 1e-6j,
             "an object": object(),
             "a list": [1e-6] * 9,
+            "zero": 0.0,
         }.items()
     },
     {
-        "zero": const(0.0),
         "an array of one for each": lambda c: jnp.full(len(c.system.states), 1e-6),
     },
     ("tolerance", "stopped"),

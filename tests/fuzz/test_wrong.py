@@ -21,7 +21,7 @@ MAKERS: dict[str, tuple[Callable[[int, Path], Mutant], int]] = {
     "netlists": (netlists.mutant, 400),
     "models": (lambda seed, folder: models.mutant(seed), 350),
     "calls": (calls.mutant, len(calls.ALL)),
-    "interface": (interface.mutant, 2000),
+    "interface": (interface.mutant, 6000),
 }
 """By kind: what makes the mutant of a seed, and how many there are. The slow tests try one in twelve of them."""
 

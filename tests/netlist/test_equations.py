@@ -123,6 +123,7 @@ WRONG = {
     "nothing to do": ("when h < 0 then end when", "nothing stands behind 'then'"),
     "no condition": ("when h + 1 then n = 1; end when", "neither true nor false"),
     "a period of zero": ("when sample(0, 0) then n = 1; end when", "a period above zero, not 0"),
+    "a period that varies": ("when sample(0, h) then n = 1; end when", "h varies in a simulation"),
     "pre of a number": ("n = pre(3)", "the value before an event is a variable's"),
     "reinit outside": ("reinit(v, 1)", "'reinit' cannot be called"),
     "reinit of a number": ("when h < 0 then reinit(2, 1); end when", "only a variable can jump"),

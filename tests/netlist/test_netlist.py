@@ -644,6 +644,10 @@ HOSTILE: dict[str, tuple[Any, str]] = {
     ),
     "NaN": ('{"stop_time": NaN}', "NaN is not a finite number"),
     "infinity": ('{"stop_time": -Infinity}', "-Infinity is not a finite number"),
+    "half a surrogate pair": (
+        '{"components": {"\\ud800": {"class": "x"}}}',
+        r"'\ud800' is not a name",
+    ),
     "a huge exponent": ('{"parameters": {"a": 1e999999999}}', "1e999999999 is not a finite number"),
     "a million digits": ('{"parameters": {"a": ' + "9" * 1_000_000 + "}}", "with 1000000 digits"),
     "a huge exponent in a text": (with_mass(m="1e999999999"), "not a finite number"),
@@ -719,7 +723,14 @@ def test_a_hostile_file_ends_in_one_sentence(name: str, file: Path) -> None:
     assert message.startswith("model.json")
     assert len(message) < 1000
     assert "\n" not in message
+    assert message.encode()
     assert caught.value.__cause__ is None
+
+
+def test_a_file_may_begin_with_a_byte_order_mark(file: Path) -> None:
+    ac.save(qvm.linear(), file)
+    file.write_bytes(b"\xef\xbb\xbf" + file.read_bytes())
+    assert ac.load(file).document["components"]  # type: ignore[attr-defined]
 
 
 def test_files_that_are_not_there(tmp_path: Path) -> None:

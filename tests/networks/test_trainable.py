@@ -70,6 +70,11 @@ def test_a_small_last_layer_starts_near_zero():
     [
         (lambda: ac.MLP(activation="rely", key=0), "no activation 'rely': did you mean 'relu'?"),
         (lambda: ac.MLP(width=0, key=0), "width=0"),
+        (
+            lambda: ac.MLP(width=9999, depth=60, key=0),
+            "width=9999 and depth=60 has 5,998,810,059 weights",
+        ),
+        (lambda: ac.networks.Law(width=9999, depth=60), "weights; give 10,000,000 or less"),
         (lambda: ac.MLP(2, input_scale=(1.0,), key=0), "1 input scales for 2 inputs"),
         (lambda: ac.MLP(2, key=0)(1.0), "a network of 2 inputs is called with 1"),
     ],

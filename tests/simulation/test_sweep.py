@@ -115,6 +115,11 @@ def test_variants_that_break_down_are_named() -> None:
         ({"spring.c": [[1.0]]}, {}, r"shape \(1, 1\); give a row of finite numbers"),
         ({"spring.c": []}, {}, r"shape \(0,\); give a row of finite numbers"),
         ({}, {}, "are not values by name"),
+        (
+            {"spring.c": np.ones(10**6), "mass.m": np.ones(10**6)},
+            {},
+            r"over: 1e\+12 variants need .* of memory or more where there are .*; vary fewer values",
+        ),
         ({"mass.s": [1.0]}, {"x0": [0.0, 0.0]}, "x0: give a mapping by name"),
         ({"spring.c": [1.0, 2.0], "mass.m": [1.0]}, {"grid": False}, r"equally many, but 'spring"),
     ],

@@ -138,7 +138,7 @@ def test_one_side_may_be_open():
 @pytest.mark.parametrize(
     ("chosen", "sentence"),
     [
-        ({"parameter": "mass.n"}, "profile: 'mass.n' is not a parameter that was trained: did you mean 'mass.m'?"),
+        ({"parameter": "mass.n"}, "profile: no parameter was trained that is 'mass.n': did you mean 'mass.m'?"),
         ({"points": 4}, "profile: points=4; give an odd number, 5 or more."),
         ({"width": 0}, "profile: width=0; give a number of standard deviations."),
         ({"level": 95}, "profile: level=95; give a number between 0 and 1."),

@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from acausal.data.readers.table import Selection, SignalTable, headers, need_time
-from acausal.errors import DataError, reason, shown
+from acausal.errors import DataError, need_text, reason, shown
 
 SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", " ": "blanks"}
 """What may separate columns, in the order in which a header is searched for it."""
@@ -67,7 +67,7 @@ def dialect_of(
         ("separator", separator, SEPARATORS),
         ("decimal", decimal, MARKS),
     ):
-        if given is not None and given not in known:
+        if given is not None and not (isinstance(given, str) and given in known):
             raise DataError(f"{what}={shown(given)}; choose one of {', '.join(map(repr, known))}.")
     is_guess = separator is None or decimal is None
     if separator is None:
@@ -103,6 +103,7 @@ def read_csv(
     Raises:
         DataError: for a file that cannot be read, with the line's number.
     """
+    need_text(encoding, "encoding")
     try:
         with path.open(encoding=encoding) as file:
             return _read(file, path, selection, separator, decimal)

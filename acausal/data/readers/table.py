@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.data.by_signal import check_units
 from acausal.data.samples import Place, sample
-from acausal.errors import DataError, nearest, shown
+from acausal.errors import DataError, nearest, need_text, shown
 from acausal.modeling import by_name, names_in
 
 HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
@@ -63,7 +63,7 @@ class Selection:
         """
         rename = by_name(self.rename, "rename", "{'column': 'mass.s'}")
         columns = None if self.columns is None else names_in(self.columns, "columns")
-        group = () if self.group is None else names_in(self.group, "group")
+        group = () if self.group is None else (need_text(self.group, "group"),)
         for name in (*(columns or ()), *rename, *group):
             need_column(name, known, source)
         return [n for n in (known if columns is None else columns) if n not in (self.time, *group)]

@@ -9,6 +9,8 @@ from typing import Any, Literal, TypeGuard
 import numpy as np
 from jaxtyping import Float, Int
 
+from acausal.errors import need_text
+
 Role = Literal["measured", "before", "after", "known", "sum", "other"]
 """What a curve is, which decides on its colour; ``other`` ones take colours in turn."""
 
@@ -221,6 +223,9 @@ class PageContent:
     cards: tuple[Card, ...]
     tabs: tuple[Tab, ...]
     footer: str = ""
+
+    def __post_init__(self) -> None:
+        need_text(self.title, "title")
 
     @property
     def plots(self) -> tuple[Plot, ...]:

@@ -197,8 +197,8 @@ def check_tolerances(rtol: Tolerance, atol: Tolerance, n_states: int) -> None:
     """Refuse tolerances with which no step can be accepted.
 
     Raises:
-        DataError: for one that is negative or not a finite number, nor one such number for each state; or if all
-            are zero.
+        DataError: for one that is negative or not a finite number, nor one such number for each state; or where the
+            absolute one is zero: a state that is zero could have no error.
     """
     for name, given in {"rtol": rtol, "atol": atol}.items():
         if not _is_tolerance(given, n_states):
@@ -206,10 +206,11 @@ def check_tolerances(rtol: Tolerance, atol: Tolerance, n_states: int) -> None:
                 f"{name}={shown(given)} is not a tolerance; give a positive number, such as {name}=1e-6, or an array "
                 "of one for each state."
             )
-    if traced(rtol, atol):
-        return
-    if not (np.any(rtol) or np.any(atol)):
-        raise DataError("rtol and atol are both zero; give rtol=1e-6, say.")
+    if not (traced(atol) or np.all(atol)):
+        raise DataError(
+            "atol=0 allows a state that is zero no error, so that no step is accepted; give a small number, such as "
+            "atol=1e-12."
+        )
 
 
 def _is_tolerance(given: Tolerance, n_states: int) -> bool:

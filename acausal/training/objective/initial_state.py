@@ -126,9 +126,15 @@ def first_states(
 
 
 def differs(records: Iterable[str], x0: InitialState) -> TypeGuard[Mapping[str, OfRecord]]:
-    """Whether a choice is one by record."""
+    """Whether a choice is one by record.
+
+    Raises:
+        DataError: for what is no choice at all.
+    """
     if isinstance(x0, str):
         return False
+    if not isinstance(x0, Mapping):
+        raise DataError(f"x0={shown(x0)}; give values by name, or one of {listing(KINDS)}.")
     return any(isinstance(v, Mapping) for v in x0.values()) or any(n in x0 for n in records)
 
 

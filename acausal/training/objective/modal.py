@@ -17,13 +17,20 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.codegen import Values
-from acausal.training.objective.regularizers import Context, Trajectory, named
+from acausal.errors import TrainingError, need_whole
+from acausal.training.objective.regularizers import (
+    Context,
+    Trajectory,
+    Weighted,
+    chosen_names,
+    named,
+)
 
 TINY = 1e-12
 """The smallest eigenvalue [1/s], or scalar product of eigenvectors, that is used as a divisor."""
 
 
-class Modal(eqx.Module):
+class Modal(Weighted):
     """``weight · mean over points of Σ excess²``.
 
     Attributes:
@@ -37,7 +44,10 @@ class Modal(eqx.Module):
     weight: float = 1.0
     points: int = eqx.field(static=True, default=20)
     reach: float = 1.0
-    states: tuple[str, ...] | None = eqx.field(static=True, default=None)
+    states: tuple[str, ...] | None = eqx.field(static=True, default=None, converter=chosen_names)
+
+    def __check_init__(self) -> None:
+        need_whole(self.points, f"{type(self).__name__}: points", TrainingError, 1)
 
     def excess(self, re: Float[Array, " n"], im: Float[Array, " n"]) -> Float[Array, " n"]:
         """How far eigenvalues ``re + j im`` [1/s] are outside of the allowed region; 0 within it."""

@@ -131,9 +131,8 @@ class Shift(Modifier):
         """A scale that is not a positive and finite number."""
         if _is_real(self.scale) and 0 < self.scale < np.inf:
             return None
-        return (
-            f"The shift of '{{}}' has scale={shown(self.scale)}; give a positive size in its unit."
-        )
+        scale = shown(self.scale).replace("{", "{{").replace("}", "}}")
+        return f"The shift of '{{}}' has scale={scale}; give a positive size in its unit."
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,19 @@ counts: the energy's derivative.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal.errors import TrainingError, nearest
+from acausal._jax import is_real, traced
+from acausal.errors import TrainingError, nearest, shown
+from acausal.modeling import by_name, names_in
 from acausal.networks import inputs_of, law_of, output_scale
 
 if TYPE_CHECKING:
@@ -58,7 +62,41 @@ class Context(eqx.Module):
 Regularizer = Callable[[Mapping[str, Any], Context], Float[Array, ""]]
 
 
-class ZeroCrossing(eqx.Module):
+class Weighted(eqx.Module):
+    """Base of regularizers whose fields are numbers, and names that are static; others they check themselves.
+
+    Raises:
+        TrainingError: for what is no number.
+    """
+
+    def __check_init__(self) -> None:
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if each.metadata.get("static") or isinstance(value, Mapping | None) or traced(value):
+                continue
+            if not (is_real(value) and np.ndim(value) == 0 and _fits(value)):
+                raise TrainingError(
+                    f"{type(self).__name__}: {each.name}={shown(value)}; give a number."
+                )
+            if each.name == "weight" and value < 0:
+                raise TrainingError(
+                    f"{type(self).__name__}: weight={shown(value)} rewards; give a positive number."
+                )
+
+
+def _fits(value: Any) -> bool:
+    try:
+        return not np.isnan(float(value))
+    except OverflowError:
+        return False
+
+
+def chosen_names(given: Any) -> tuple[str, ...] | None:
+    """Names of networks or states; ``None`` for all."""
+    return None if given is None else names_in(given, "a regularizer")
+
+
+class ZeroCrossing(Weighted):
     """Networks should vanish at zero: ``weight · Σ F(0)²``, the paper's (4).
 
     A network with secondary arguments T is held at zero for all of them: the mean over samples of
@@ -72,7 +110,7 @@ class ZeroCrossing(eqx.Module):
     """
 
     weight: float = 0.01
-    networks: tuple[str, ...] | None = eqx.field(static=True, default=None)
+    networks: tuple[str, ...] | None = eqx.field(static=True, default=None, converter=chosen_names)
     secondary: Mapping[str, ArrayLike] | None = None
 
     def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
@@ -82,7 +120,12 @@ class ZeroCrossing(eqx.Module):
         return self.weight * _sum(terms)
 
     def _at_zero(self, name: str, network: Network, context: Context) -> Float[Array, ""]:
-        if self.secondary is not None and name in self.secondary:
+        if name in by_name(self.secondary, "secondary", "samples by network"):
+            assert self.secondary is not None
+            if not is_real(self.secondary[name]):
+                raise TrainingError(
+                    f"ZeroCrossing: secondary of '{name}' is {shown(self.secondary[name])}; give samples."
+                )
             given = jnp.asarray(self.secondary[name], float)
             others = given[:, None] if given.ndim == 1 else given
         else:
@@ -94,7 +137,7 @@ class ZeroCrossing(eqx.Module):
         return jnp.mean((force / output_scale(network)) ** 2)
 
 
-class SmallCorrection(eqx.Module):
+class SmallCorrection(Weighted):
     """Networks should add as little as the data allow: ``weight · Σ mean F²`` over the record.
 
     This prior decides what the data leave open. In the quarter vehicle, for example, a common factor on all masses, the
@@ -106,7 +149,7 @@ class SmallCorrection(eqx.Module):
     """
 
     weight: float = 1e-3
-    networks: tuple[str, ...] | None = eqx.field(static=True, default=None)
+    networks: tuple[str, ...] | None = eqx.field(static=True, default=None, converter=chosen_names)
 
     def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
         """The penalty."""

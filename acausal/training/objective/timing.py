@@ -18,7 +18,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import is_number
 from acausal.data import Data
-from acausal.errors import TrainingError, nearest, shown
+from acausal.errors import TrainingError, nearest, need_flag, shown
 from acausal.training.objective.modifiers import Bounded, Modifier, Modifiers
 
 SAMPLES = 20
@@ -178,7 +178,7 @@ def _time(kind: str, name: str, given: object, limit: float) -> tuple[float, Mod
         raise TrainingError(
             f"{what} has bounds from {low:g} to {high:g} s; the lower one comes first."
         )
-    if not train:
+    if not need_flag(train, f"{what}: train", TrainingError):
         if start < 0 and kind == "lag":
             raise TrainingError(f"{what} is {start:g} s; a time constant is not negative.")
         return float(start), None

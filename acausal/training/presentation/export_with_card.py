@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import acausal.export as export
-from acausal.errors import DataError, nearest, user_level
-from acausal.files import need_path, new_file, write_files
+from acausal.errors import DataError, nearest, shown, user_level
+from acausal.files import file_to_write, need_path, write_files
+from acausal.modeling import by_name
 from acausal.training.presentation.model_card import facts, markdown
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
@@ -35,13 +36,12 @@ def export_with_card(
     path: str | Path,
     confidence: Confidence | None,
     notes: Mapping[str, object] | None,
-    overwrite: bool,
     options: Mapping[str, Any],
 ) -> Path:
     """Write one file and its card; arguments as of `Fit.export`.
 
     Raises:
-        DataError: for an unknown ending, a file that exists, or as the function for this form does.
+        DataError: for an unknown ending, what is no path of a file, or as the function for this form does.
     """
     target = need_path(path, "fit.export")
     if target.suffix not in FORMS:
@@ -50,7 +50,7 @@ def export_with_card(
         )
     cards = [target.with_name(target.name + ending) for ending in (".md", ".json")]
     for card in (target, *cards):
-        new_file(card, "fit.export", overwrite, need_folder=False)
+        file_to_write(card, "fit.export", need_folder=False)
     if late := [*fit.delays.items(), *fit.lags.items()]:
         told = ", ".join(f"'{name}' by {seconds:.4g} s" for name, seconds in late)
         warnings.warn(
@@ -58,9 +58,14 @@ def export_with_card(
             f"used, delay {told}.",
             stacklevel=user_level(),
         )
+    if not isinstance(confidence, Confidence | None):
+        raise DataError(
+            f"fit.export: confidence={shown(confidence)}; give that of fit.confidence()."
+        )
+    further = by_name(notes, "fit.export: notes", "lines by title")
     function = FORMS[target.suffix]
-    files = _write(fit, target, function, {**options, "overwrite": overwrite})
-    found = facts(fit, files, function, {**options}, confidence, notes or {})
+    files = _write(fit, target, function, dict(options))
+    found = facts(fit, files, function, {**options}, confidence, further)
     write_files({cards[0]: markdown(found), cards[1]: json.dumps(found, indent=2) + "\n"})
     return target
 

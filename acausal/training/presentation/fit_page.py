@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from acausal.errors import DataError, shown
 from acausal.pages import Known, labelled
 from acausal.reporting import (
     Block,
@@ -70,7 +71,7 @@ def fit_content(
         },
         "Trust": {
             "How sure it is": [Text(s) for s in ([NOT_SURE] if sure is None else sure.summary())],
-            "Profiles": [block for p in profiles for block in _profile(p)],
+            "Profiles": [block for p in _profiles(profiles) for block in _profile(p)],
             "Residuals": [] if sure is None else [b for r in fit.residuals() for b in _residuals(r)],
             "What diverged": list(_diverged(fit.history)),
         },
@@ -135,6 +136,17 @@ def _own(fit: TrainedModel, sure: Confidence | None) -> Table | None:
 
 
 # -- trust ---------------------------------------------------------------------------------------------------
+
+
+def _profiles(given: object) -> Sequence[Profile]:
+    """Profiles as they are.
+
+    Raises:
+        DataError: for anything else.
+    """
+    if isinstance(given, list | tuple) and all(isinstance(p, Profile) for p in given):
+        return given
+    raise DataError(f"profiles={shown(given)}; give a list of those of fit.profile(...).")
 
 
 def _profile(profile: Profile) -> Iterable[Block]:
