@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections import ChainMap
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, cast
 
 import numpy as np
@@ -30,7 +31,7 @@ from acausal.modelica.outer import inner_of
 from acausal.modelica.overconstrained import ConnectionGraph, Edge
 from acausal.modelica.syntax import ClassDefinition, LiteralConstant, ModificationSyntax
 from acausal.modelica.types import Type, is_component, type_of_declared
-from acausal.modelica.values import ABSENT, Record, as_array, of
+from acausal.modelica.values import ABSENT, Kept, Record, as_array, of
 from acausal.modelica.variables import declare
 from acausal.modelica.views import Entry
 from acausal.modeling import Component, Connector, Reference, charge, element_name
@@ -139,6 +140,7 @@ class Build:
         graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
         fixed: of arrays of which some elements alone are fixed at the start, which.
+        kept: arrays of its variables by name, and what arrays of parts are given, by `id` of the expression.
         counted: how often connectors are connected, by owner and name; not by what `statements.check` adds.
     """
 
@@ -161,6 +163,7 @@ class Build:
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
         self.graph, self.edges = ConnectionGraph(), list[Edge]()
+        self.kept = Kept()
 
     @property
     def entries(self) -> dict[str, Entry]:
@@ -168,9 +171,10 @@ class Build:
         return self.node.view().entries
 
     @property
-    def names(self) -> dict[str, Any]:
+    def names(self) -> Mapping[str, Any]:
         """Components of the class, and what it inherits from a library."""
-        return {**self.component._declared, **self.component._node.children, **self.entries}
+        children: dict[str, Any] = self.component._node.children
+        return ChainMap(self.entries, children, self.component._declared)  # pyright: ignore[reportArgumentType]
 
     def frame(self, node: ClassNode) -> Frame:
         """Where expressions of a class that it consists of are looked up."""

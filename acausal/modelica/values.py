@@ -87,6 +87,26 @@ class BusMember(Record):
         return self.bus.field(f"{self.name}[{','.join(map(str, index))}]")
 
 
+class Kept(dict[Any, tuple[Any, Any]]):
+    """What is found by keys, each with what it was made of; a copy of a model finds it again."""
+
+    def __deepcopy__(self, memo: Any) -> Kept:
+        return Kept()
+
+    def of(self, key: Any, source: Any, make: Callable[[], Any]) -> Any:
+        """The value of a key, made once for one source."""
+        known = self.get(key)
+        if known is None or known[0] is not source:
+            known = self[key] = source, make()
+        return known[1]
+
+    def array(self, name: str, found: Any) -> Any:
+        """An array of variables, made once of the list that the component has."""
+        if not is_array(found):
+            return found
+        return self.of(name, found, lambda: as_array(cast(Any, found)))
+
+
 class FunctionValue:
     """A function as the argument of another one.
 
@@ -206,7 +226,8 @@ def of(value: Any, word: str) -> Any:
                 return build.made[word]
             if build is not None and word in build.entries and word not in vars(value):
                 return build.member(word)  # of a part that is not complete yet
-            return as_array(member(value, word))
+            found = member(value, word)
+            return build.kept.array(word, found) if build is not None else as_array(found)
         case Connector():
             return as_array(getattr(value, attribute_of(word))) if _has(value, word) else None
         case _ if is_dataclass(value) and not isinstance(value, type):
