@@ -36,7 +36,6 @@ REFUSED = {
     "terminal": "use an equation of time",
     "inStream": "use connectors without stream variables",
     "actualStream": "use connectors without stream variables",
-    "getInstanceName": "write the name as a text",
     **dict.fromkeys(
         ("Clock", "previous", "hold", "interval", "subSample", "superSample", "noClock"),
         "write 'when sample(start, period) then', or use Modelica.Blocks.Discrete",
@@ -52,12 +51,13 @@ class Algorithms(Evaluator):
     """Executes the statements of algorithms.
 
     Attributes:
-        statements: how many were executed.
+        statements: how many were executed. inputs: of the function, which it cannot assign.
         path: under which condition that changes with time the present statements are executed.
         left: under which condition ``break`` or ``return`` has left them; ``returned``: ``return`` alone.
     """
 
     statements: int = 0
+    inputs: frozenset[str] = frozenset()
     path: Any = True
     left: Any = False
     returned: Any = False
@@ -122,6 +122,8 @@ class Algorithms(Evaluator):
             what = target.text if isinstance(target, DottedName) else "this"
             raise self.wrong(f"'{what}' cannot be assigned here")
         word = target.words[0]
+        if word in self.inputs:
+            raise self.wrong(f"'{word}' is an input; assign a protected variable", len(word))
         if any(isinstance(v, sp.Basic) and _parts(v) > MAX_PARTS for v in elements(value)):
             raise self.wrong(
                 f"'{word}' becomes an expression of more than {MAX_PARTS} parts; make fewer steps, "

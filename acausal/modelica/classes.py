@@ -10,6 +10,7 @@ from typing import Any
 from acausal.errors import nearest
 from acausal.modelica.grammar import parse
 from acausal.modelica.meanings import PATH_HINT, Imported, Native, Predefined, Prefix, unknown_name
+from acausal.modelica.rules import check_base, check_same, check_sections
 from acausal.modelica.syntax import (
     ClassDefinition,
     Declared,
@@ -194,6 +195,8 @@ class ClassNode:
             for clause in above.extends if isinstance(above, ClassNode) else ():
                 assert isinstance(above, ClassNode)
                 found = self.tree.inside(above.base(clause), self.definition.name)
+                if isinstance(found, ClassNode) and not found.definition.prefixes.replaceable:
+                    raise self.refused(f"'{self.definition.name}' is not replaceable in the base")
                 if found is not None:
                     return above._inherited_class(f"{self.definition.name} of the base", found)
         if id(extends) in self._bases:
@@ -305,6 +308,7 @@ class ClassNode:
         if self._viewed:
             raise self.refused(f"'{self.definition.name}' extends itself")
         self._viewed = True
+        check_sections(self)
         view, short = ClassView(), self.definition.short
         if self.definition.literals is not None:
             view.predefined = Predefined(self.full)
@@ -316,6 +320,8 @@ class ClassNode:
                     known = view.entries.get(element.name)
                     if known is not None and known.node is self:
                         raise self.twice(element)
+                    if known is not None and not element.prefixes.redeclare:
+                        check_same(self, element, known.declared)
                     modifiers = known.modifiers if known and not element.prefixes.redeclare else []
                     view.entries[element.name] = Entry(element, self, list(modifiers))
                 case ClassDefinition() if element.prefixes.redeclare:
@@ -365,6 +371,7 @@ class ClassNode:
                     f"'{clause.base.text}' is not a class to extend",
                     len(clause.base.text),
                 )
+        check_base(self, clause, base)
         inherited = base.view() if not self.redeclares else base.view().within(self._scope)
         for native, given in inherited.natives:
             view.natives.append((native, [*self._for_native(arguments, inherited), *given]))
@@ -388,7 +395,8 @@ class ClassNode:
                 hint = nearest(argument.name, inherited.entries)
                 reason = f"'{base.definition.name}' has no '{argument.name}'; {hint}"
                 raise self.wrong(argument.at, reason, len(argument.name))
-        view.sections += inherited.sections
+        known = {id(stated) for _, stated, _ in view.sections}  # of a base on two ways once
+        view.sections += [one for one in inherited.sections if id(one[1]) not in known]
 
     def _with_all(
         self, base: Native, arguments: list[tuple[ModificationArgument, ClassNode]]

@@ -106,7 +106,11 @@ class Evaluator(Operators):
 
     def _matrix(self, expression: MatrixConstructor) -> Any:
         rows = [[self._two(self.value(v)) for v in row] for row in expression.rows]
-        return np.concatenate([np.concatenate(row, axis=1) for row in rows], axis=0)
+        try:
+            return np.concatenate([np.concatenate(row, axis=1) for row in rows], axis=0)
+        except ValueError:
+            shapes = "; ".join(", ".join(str(list(v.shape)) for v in row) for row in rows)
+            raise self.wrong(f"these do not fit into one matrix: [{shapes}]") from None
 
     def _two(self, value: Any) -> Any:
         found = value if isinstance(value, np.ndarray) else array_of([value])
@@ -264,6 +268,8 @@ class Evaluator(Operators):
                 raise self.wrong(f"'{word}' has no value; give one", len(word))
             return value, 1
         if word == "time" and len(name.words) == 1:
+            if frame.calls and frame.build is None:
+                raise self.wrong("a function knows no time; give it as an argument", len(word))
             return time, 1
         found, rest = frame.find(name.words)
         i = len(name.words) - len(rest)
@@ -286,7 +292,7 @@ class Evaluator(Operators):
                         frame.build is None or node is not frame.node
                     ):
                         return self.constant(node, word), 1
-                    node = node.parent
+                    node = None if node.definition.encapsulated else node.parent
             case _:
                 pass
         for library in (

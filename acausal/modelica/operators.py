@@ -16,12 +16,13 @@ from acausal.modelica.syntax import (
     Expression,
     OperatorExpression,
 )
-from acausal.modelica.tokens import ModelicaError
+from acausal.modelica.tokens import PREDEFINED, ModelicaError
 from acausal.modelica.values import (
     Absent,
     Record,
     each,
     identity,
+    is_real,
     is_record,
     type_of,
 )
@@ -204,6 +205,14 @@ class Operators(Arithmetic):
     def holds(self, test: Expression | None) -> Any:
         """The condition of a branch; that of ``else`` is true."""
         return True if test is None else self.truth(self.value(test))
+
+    def need_type(self, kind: str, value: Any) -> None:
+        """Refuse a value that surely has another type than the variable that it is for."""
+        if kind == "Integer" and is_real(value):
+            raise self.wrong("an Integer is needed here, this is a Real; integer(...) rounds it")
+        plain = isinstance(value, int | float) and not isinstance(value, bool)
+        if kind and kind not in PREDEFINED and plain:
+            raise self.wrong(f"a value of {kind} is needed here, not a number")
 
     def number(self, value: Any) -> Any:
         """A value to calculate with."""

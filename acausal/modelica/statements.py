@@ -13,6 +13,7 @@ from acausal.modelica.algorithm_sections import AlgorithmReader
 from acausal.modelica.connecting import ends_of
 from acausal.modelica.modifications import Bound
 from acausal.modelica.sections import SectionReader, collect, is_discrete
+from acausal.modelica.syntax import Branches
 from acausal.modelica.values import (
     as_array,
     elements,
@@ -89,6 +90,10 @@ def initial_equations(build: Any) -> Iterator[Any]:
 def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
     """What the sections of two kinds state, in the order of the text."""
     for kind, stated, node in build.node.view().sections:
+        if kind == equations == "initial_equations":
+            for one in stated:
+                if isinstance(one, Branches) and one.word == "when":
+                    raise node.wrong(one.at, "'when' does not stand in initial equations")
         if kind == equations:
             yield from SectionReader(build.frame(node)).stated(stated)
         elif kind == algorithms:

@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.modeling import Component, Connector, Input, Output, Reference, Variable
+from acausal.modeling import Component, Connector, Input, Output, Reference, Variable, time
 from acausal.netlist import member
 
 
@@ -257,7 +257,24 @@ def type_of(value: Any) -> str:
         return "" if build is None else build.types.get(without_index(value.path), "")
     if isinstance(value, sp.Expr) and (value.is_Add or value.is_Mul or value.is_Pow):
         return "Real"
+    if value is time:
+        return "Real"
     return "Integer" if isinstance(value, int) else "Real" if isinstance(value, float) else ""
+
+
+def is_real(value: Any) -> bool:
+    """Whether this is surely a Real and no Integer; a function of others may be either."""
+    if isinstance(value, float):
+        return not value.is_integer()
+    if not isinstance(value, sp.Expr):
+        return False
+    if value.is_Add or value.is_Mul:
+        return any(map(is_real, value.args))
+    if value.is_Pow:
+        return is_real(value.args[0]) or not value.args[1].is_Integer or value.args[1].is_negative
+    if value.is_Number:
+        return not float(value).is_integer()
+    return (value is time or isinstance(value, Reference)) and type_of(value) == "Real"
 
 
 def without_index(path: str) -> str:
