@@ -18,6 +18,7 @@ from acausal.modelica.values import (
     as_array,
     elements,
     of,
+    type_of,
 )
 from acausal.modeling import (
     Component,
@@ -187,7 +188,10 @@ def connected_or_given(build: Any) -> tuple[frozenset[str], frozenset[str]]:
 def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
     reader = SectionReader(bound.frame)
     reader.at = bound.expression.at
-    yield from reader.pairs(_target(part, path), bound.value())
+    target, value = _target(part, path), bound.value()
+    for one in elements(value):
+        reader.need_type(type_of(elements(target)[0]) if np.size(target) else "", one)
+    yield from reader.pairs(target, value)
 
 
 def _target(part: Component, path: str) -> Any:
