@@ -121,7 +121,9 @@ class SectionReader(Connecting):
         if len(truths) == 2 and truths[0] != truths[1]:
             raise self.wrong("one side is a Boolean, the other is not")
         if isinstance(left, Reference) and not isinstance(right, Reference):
-            self.need_type(type_of(left), right)  # an Integer may give a Real its value, and stand on the left
+            self.need_type(
+                type_of(left), right
+            )  # an Integer may give a Real its value, and stand on the left
         sides = [v.number if isinstance(v, Literal) else v for v in (left, right)]
         for side in sides:
             if isinstance(side, str):
