@@ -128,7 +128,8 @@ class ClassNode:
             for extends in self.extends:
                 for argument in extends.modifier.arguments:
                     if argument.name == name and isinstance(argument.redeclared, ClassDefinition):
-                        return ClassNode(argument.redeclared, self, self.tree)
+                        new = ClassNode(argument.redeclared, self, self.tree)
+                        return self.children.setdefault(f"{name} at {argument.at}", new)
                 base = self.base(extends, quiet=True)
                 found = self.tree.inside(base, name)
                 if found is not None and not self._is_guess(found):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.errors import ModelError, shortened
+from acausal.errors import ModelError, shown
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.meanings import Literal
 from acausal.modelica.syntax import (
@@ -233,7 +233,7 @@ class Operators(Arithmetic):
         if isinstance(value, float) and value.is_integer():
             value = int(value)
         if isinstance(value, bool) or not isinstance(value, int):
-            raise self.wrong(f"{what} is a whole number, not {shortened(repr(value), 40)}")
+            raise self.wrong(f"{what} is a whole number, not {shown(value, 40)}")
         return value
 
     def known(self, value: Any, what: str) -> Any:
