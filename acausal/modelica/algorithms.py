@@ -33,7 +33,6 @@ MAX_PARTS = 100_000
 REFUSED = {
     "delay": "use the block Modelica.Blocks.Nonlinear.PadeDelay, an approximation",
     "spatialDistribution": "divide the pipe into volumes",
-    "terminal": "use an equation of time",
     "inStream": "use connectors without stream variables",
     "actualStream": "use connectors without stream variables",
     **dict.fromkeys(
@@ -260,6 +259,13 @@ class Algorithms(Evaluator):
             raise self.wrong(f"{word}(...) is not supported here{hint}", len(word))
         else:
             self.checked(call)
+
+    def at_the_end(self, call: FunctionCall) -> bool:
+        """``terminal()``, which is false while a model runs."""
+        self.unwatched(
+            call, "the end of a simulation is no event; what is to happen then is left out"
+        )
+        return False
 
     def full_name(self, call: FunctionCall) -> str:
         """The full name of a function, where its text is known."""

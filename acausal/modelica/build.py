@@ -143,6 +143,7 @@ class Build:
         graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
         fixed: of arrays of which some elements alone are fixed at the start, which.
+        bound_inputs: inputs that have a value, and are no signals therefore.
         kept: arrays of its variables by name, and what arrays of parts are given, by `id` of the expression.
         counted: how often connectors are connected, by owner and name; not by what `statements.check` adds.
     """
@@ -166,7 +167,7 @@ class Build:
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
         self.graph, self.edges = ConnectionGraph(), list[Edge]()
-        self.kept = Kept()
+        self.kept, self.bound_inputs = Kept(), set[str]()
 
     @property
     def entries(self) -> dict[str, Entry]:
@@ -348,11 +349,10 @@ class Build:
         """Whether this is a public connector that a block declares without a causality (section 4.7)."""
         declared = entry.declared
         public = entry.node.definition.kind == "block" and not declared.prefixes.protected
-        whole = found.node is not None and not found.node.definition.expandable
-        inputs = whole and any(
-            e.declared.prefixes.causality for e in found.node.view().entries.values()
-        )
-        return public and whole and not (declared.prefixes.causality or found.causality or inputs)
+        if found.node is None or found.node.definition.expandable or not public:
+            return False
+        inner = [e.declared.prefixes.causality for e in found.node.view().entries.values()]
+        return not any((declared.prefixes.causality, found.causality, *inner))
 
     def assign(self, name: str, entry: Entry, value: Any) -> None:
         """Give the component an attribute.

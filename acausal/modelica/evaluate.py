@@ -242,15 +242,22 @@ class Evaluator(Operators):
             inner = of(value, name.words[i])
             if inner is None or (isinstance(inner, BusMember) and not self.connecting):
                 raise self.unknown(name, i, value)
+            subscripts = name.subscripts.get(i)
+            if subscripts is not None:
+                inner = self._elements_of(inner, len(shape_of(value)), subscripts)
             value = inner
-            if i in name.subscripts:
-                value = self.subscripted(value, name.subscripts[i])
             i += 1
         build, word = self.frame.build, name.words[0]
         known = None if build is None or self.connecting else build.entries.get(word)
         outer = known is not None and known.declared.prefixes.outer
         value = value if self.connecting else as_record(value)
         return mapped(partial(inwards, build), value) if build and outer else value
+
+    def _elements_of(self, value: Any, above: int, subscripts: list[Expression]) -> Any:
+        """Elements of a member; of the members of an array of parts, of ``above`` dimensions, of each."""
+        if not above:
+            return self.subscripted(value, subscripts)
+        return as_array([self._elements_of(v, above - 1, subscripts) for v in value])
 
     def _first(self, name: DottedName) -> tuple[Any, int]:
         """The value of the first words, and how many they are."""

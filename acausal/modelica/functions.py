@@ -61,6 +61,8 @@ class Interpreter(Algorithms):
         if call.partial or isinstance(local, FunctionValue):
             return self._of_argument(self.function(call), call)
         special = SPECIAL.get(name)
+        if name == "terminal":
+            return self.at_the_end(call)
         if special is not None and name not in self.frame.local:
             return special(self, call)
         if name in REFUSED and name not in self.frame.local:

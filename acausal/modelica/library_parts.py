@@ -13,9 +13,9 @@ from acausal.modelica.functions import Interpreter
 from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Given, Modification
 from acausal.modelica.syntax import ArrayConstructor
-from acausal.modelica.values import nested, of
+from acausal.modelica.values import each, nested, of
 from acausal.modeling import Component, Eq, Option, Variable, check_nested, element_name
-from acausal.netlist import NetlistError, Scope, is_structural, make, modify
+from acausal.netlist import NetlistError, Scope, evaluated, is_structural, make, modify
 
 RENAMED = {"freqHz": "f"}
 """Name of a parameter in version 3.2.3 of the Modelica Standard Library -> its name since 4.0.0."""
@@ -156,9 +156,23 @@ def _raw(mod: Modification) -> Any:
     if not mod.inner:
         return value
     rest = {name: _raw(inner) for name, (inner, _) in grouped(mod.inner).items()}
+    if "nominal" in rest:
+        rest["nominal"] = nominal_of(rest["nominal"])
     if isinstance(rest.get("start"), Literal):
         rest["start"] = rest["start"].number
     return rest if value is None else {"=": value, **rest}
+
+
+def nominal_of(value: Any) -> Any:
+    """A nominal value, of which parameters become numbers; what they do not decide is left out."""
+
+    def number(v: Any) -> Any:
+        return evaluated(v, "a nominal value", {}) if isinstance(v, sp.Expr) else v
+
+    try:
+        return each(number, value)
+    except (ModelError, TypeError):
+        return None
 
 
 def _placed(one: Given, part: Component, name: str, raw: Any) -> None:

@@ -104,7 +104,7 @@ class Kept(dict[Any, tuple[Any, Any]]):
         """An array of variables, made once of the list that the component has."""
         if not is_array(found):
             return found
-        return self.of(name, found, lambda: as_array(cast(Any, found)))
+        return self.of(name, found, lambda: as_array(found))
 
 
 class FunctionValue:
@@ -271,7 +271,9 @@ def is_real(value: Any) -> bool:
     if value.is_Add or value.is_Mul:
         return any(map(is_real, value.args))
     if value.is_Pow:
-        return is_real(value.args[0]) or not value.args[1].is_Integer or value.args[1].is_negative
+        return is_real(value.args[0]) or not (
+            value.args[1].is_Integer and value.args[1].is_positive
+        )
     if value.is_Number:
         return not float(value).is_integer()
     return (value is time or isinstance(value, Reference)) and type_of(value) == "Real"

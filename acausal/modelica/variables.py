@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.errors import ModelError
 from acausal.modelica import statements
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.library_parts import ModifierValues, grouped
+from acausal.modelica.library_parts import ModifierValues, grouped, nominal_of
 from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Bound, Modification
 from acausal.modelica.operators import Frame
@@ -28,7 +27,6 @@ from acausal.modeling import (
     Start,
     Variable,
 )
-from acausal.netlist import evaluated
 
 KINDS: dict[str, Any] = {"Real": "real", "Boolean": "bool"}
 
@@ -71,7 +69,7 @@ def declare(
     build.assign(name, entry, declared)
     start = {k: _value(v) for k, v in stated.items() if k not in ("min", "max")}
     if "nominal" in start:
-        start["nominal"] = _nominal(start["nominal"])
+        start["nominal"] = nominal_of(start["nominal"])
     _need_start(found, stated.get("start"), start.get("start"), shape)
     if isinstance(start.get("start"), np.ndarray):
         start["start"] = each(lambda v: int(v) if isinstance(v, bool) else v, start["start"])
@@ -91,18 +89,6 @@ def declare(
     if mod.value is not None:
         owner = mod.value.frame.build or build
         owner.bindings.append((build.component, name, mod.value))
-
-
-def _nominal(value: Any) -> Any:
-    """A nominal value, of which parameters become numbers; what they do not decide is left out."""
-
-    def number(v: Any) -> Any:
-        return evaluated(v, "a nominal value", {}) if isinstance(v, sp.Basic) else v
-
-    try:
-        return each(number, value)
-    except (ModelError, TypeError):
-        return None
 
 
 def _need_start(found: Type, stated: Any, start: Any, shape: tuple[int, ...]) -> None:
@@ -153,6 +139,8 @@ def _variable(
     ) and not (fed and causality == "output")
     if causality == "input" and mod.value is None:
         return Input(kind=kind, **given)
+    if causality == "input":
+        build.bound_inputs.add(name)
     if causality == "output":
         return DiscreteOutput(kind=kind, **given) if jumps else Output(**given)
     return Discrete(kind=kind, **given) if jumps else Variable(**given)

@@ -130,6 +130,16 @@ def test_the_last_model_is_meant_or_one_by_its_name(tmp_path: Path) -> None:
         ac.load(file, 3)  # type: ignore[arg-type]
 
 
+def test_earlier_names_of_the_standard_library(tmp_path: Path) -> None:
+    file = tmp_path / "old.mo"
+    file.write_text("""model Old
+      Modelica.Blocks.Sources.Clock clock;
+      Modelica.Blocks.Sources.Sine sine(freqHz = 0.25);
+      Real y = clock.y + sine.y;
+    end Old;""")
+    assert float(ac.simulate(ac.compile(ac.load(file)), 1.0, dt=0.5)["y"][-1]) == pytest.approx(2)
+
+
 def test_the_experiment_is_kept() -> None:
     assert ac.load(TEXTBOOK, "RC").document == {"stop_time": 3}
 
