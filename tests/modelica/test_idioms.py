@@ -162,19 +162,26 @@ def test_members_of_arrays_inputs_with_a_value_and_names_of_instances(tmp_path: 
             parameter Named names[:] = {Named(), Named("b")};
             Store s, t(use = false);
             Out y = 3*time;
+            discrete Real last(start = 7, fixed = true);
             R r[3](x = {{1, 2}, {3, 4}, {5, 6}});
             Real second[3] = r.x[2], n = if names[2].name == "b" and s.name == "M.s" then 1 else 0;
           equation
             connect(y, s.u);
             when terminal() then
-              assert(false, "nothing happens");
+              last = y;
             end when;
           end M;
         end P;""")
-    with pytest.warns(UserWarning, match="line 23, column 18: the end of a simulation is no event"):
+    with pytest.warns(UserWarning, match="line 24, column 18: the end of a simulation is no event"):
         model = ac.load(file, "P.M")
     run = ac.simulate(ac.compile(model), 1.0, dt=0.5)
-    assert [float(run[n][-1]) for n in ("s.twice", "t.twice", "second[3]", "n")] == [6, 2, 6, 1]
+    assert [float(run[n][-1]) for n in ("s.twice", "t.twice", "second[3]", "n", "last")] == [
+        6,
+        2,
+        6,
+        1,
+        7,
+    ]
 
 
 def test_a_unit_that_nobody_knows_is_a_warning(tmp_path: Path) -> None:
