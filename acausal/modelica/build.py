@@ -32,7 +32,7 @@ from acausal.modelica.overconstrained import ConnectionGraph, Edge
 from acausal.modelica.rules import check_replacement
 from acausal.modelica.syntax import ClassDefinition, LiteralConstant, ModificationSyntax
 from acausal.modelica.types import Type, is_component, type_of_declared
-from acausal.modelica.values import ABSENT, Kept, Record, as_array, of
+from acausal.modelica.values import ABSENT, FoundOnce, Record, as_array, of
 from acausal.modelica.variables import declare, sizes_of
 from acausal.modelica.views import Entry
 from acausal.modeling import Component, Connector, Reference, charge, element_name
@@ -167,7 +167,7 @@ class Build:
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
         self.graph, self.edges = ConnectionGraph(), list[Edge]()
-        self.kept, self.bound_inputs = Kept(), set[str]()
+        self.kept, self.bound_inputs = FoundOnce(), set[str]()
 
     @property
     def entries(self) -> dict[str, Entry]:

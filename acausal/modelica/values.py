@@ -87,11 +87,11 @@ class BusMember(Record):
         return self.bus.field(f"{self.name}[{','.join(map(str, index))}]")
 
 
-class Kept(dict[Any, tuple[Any, Any]]):
+class FoundOnce(dict[Any, tuple[Any, Any]]):
     """What is found by keys, each with what it was made of; a copy of a model finds it again."""
 
-    def __deepcopy__(self, memo: Any) -> Kept:
-        return Kept()
+    def __deepcopy__(self, memo: Any) -> FoundOnce:
+        return FoundOnce()
 
     def of(self, key: Any, source: Any, make: Callable[[], Any]) -> Any:
         """The value of a key, made once for one source."""
