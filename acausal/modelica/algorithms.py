@@ -247,6 +247,8 @@ class Algorithms(Evaluator):
         """
         word = call.function.text
         self.at = call.at
+        if self.frame.build is not None:
+            self.frame.build.performs = True
         found, rest = self.frame.find(call.function.words)
         if self.full_name(call) == "Modelica.Utilities.Streams.print":
             self.unwatched(call, "this text is not printed")

@@ -143,6 +143,7 @@ class Build:
         graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
         fixed: of arrays of which some elements alone are fixed at the start, which.
+        performs: whether it calls functions of the text or asserts something, which depends on values.
         bound_inputs: inputs that have a value, and are no signals therefore.
         kept: arrays of its variables by name, and what arrays of parts are given, by `id` of the expression.
         counted: how often connectors are connected, by owner and name; not by what `statements.check` adds.
@@ -167,7 +168,7 @@ class Build:
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
         self.graph, self.edges = ConnectionGraph(), list[Edge]()
-        self.kept, self.bound_inputs = FoundOnce(), set[str]()
+        self.kept, self.bound_inputs, self.performs = FoundOnce(), set[str](), False
 
     @property
     def entries(self) -> dict[str, Entry]:

@@ -29,6 +29,7 @@ class ClassNode:
     Attributes:
         parent: the class or package around it.
         folder: of a package that is a folder; other files there are its classes.
+        unwatched: statements of which a warning was given. checked: what was found right, see `statements.check`.
     """
 
     def __init__(
@@ -42,6 +43,7 @@ class ClassNode:
         self.children: dict[str, Any] = {}
         self.python: type | None = None
         self.unwatched: set[int] = set()
+        self.checked: set[Any] = set()
         self._viewed = False
         self._bases: dict[int, Any] = {}
         self._searching: set[str] = set()

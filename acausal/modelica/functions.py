@@ -219,6 +219,8 @@ class Interpreter(Algorithms):
         """
         definition, view, at = node.definition, node.view(), call.at
         check_function(node)
+        if self.frame.build is not None:
+            self.frame.build.performs = True
         length = len(call.function.text)
         if self.frame.calls > MAX_CALLS:
             raise self.wrong(f"functions call each other more than {MAX_CALLS} deep", length)

@@ -115,8 +115,11 @@ def check(build: Any) -> None:
     of its own that an equation gives a number, as nobody connects them, are connected to outputs around it.
     """
     component, node = build.component, build.component._node
+    form, declared, own = _form_of(build), len(node.own_declarations), True
+    if form is not None and form in build.node.checked:
+        return
     stated = [s for s in equations(build) if isinstance(s, Eq)]
-    start(component, stated, [*_read(build, "initial_equations", "initial_algorithms")])
+    started = start(component, stated, [*_read(build, "initial_equations", "initial_algorithms")])
     ends = {end for pair in node.connections for end in pair}
     symbols = [
         s for equation in stated for side in (equation.lhs, equation.rhs) for s in references(side)
@@ -132,10 +135,33 @@ def check(build: Any) -> None:
             name = re.sub(r"\W+", "_", ".".join((*route, symbol.path)))
             setattr(around, f"{name}_given", Output(unit=symbol.declaration.unit))
             around.connect(getattr(around, f"{name}_given"), symbol)
+            own = False
+    alone = own and not (started or build.performs or build.decided or build.counted)
+    if form is not None and alone and declared == len(node.own_declarations):
+        build.node.checked.add(form)
 
 
-def start(component: Component, stated: list[Eq], initial: list[Eq]) -> None:
-    """Give discrete variables the starts that follow from initial equations, through equations of two variables."""
+def _form_of(build: Any) -> Any:
+    """What decides what a component without parts states; None for others, which are read one by one."""
+    node, made = build.component._node, build.made
+    plain = all(isinstance(v, bool | int | float | str) for v in made.values())
+    if node.children or build.outer or build.bindings or build.given_inwards or not plain:
+        return None
+    declared = [
+        (name, type(d), getattr(d, "shape", None), getattr(d, "kind", None))
+        for name, d in node.own_declarations.items()
+    ]
+    sizes = [(n, np.shape(v)) for n, v in node.modifiers.items() if isinstance(v, np.ndarray)]
+    classes = [(name, id(cls)) for name, cls in build.classes.items()]
+    return (*sorted(made.items()), *sorted(build.absent), *declared, *sizes, *classes)
+
+
+def start(component: Component, stated: list[Eq], initial: list[Eq]) -> bool:
+    """Give discrete variables the starts that follow from initial equations, through equations of two variables.
+
+    Returns:
+        Whether there are some.
+    """
     values: dict[Any, float] = {
         e.lhs: float(e.rhs) for e in initial if _jumps(e.lhs) and e.rhs.is_number
     }
@@ -149,6 +175,7 @@ def start(component: Component, stated: list[Eq], initial: list[Eq]) -> None:
         reference = side.reference if isinstance(side, Previous) else side
         if reference.owner is component._node:
             component.modify(**{reference.path: Start(values[side])})
+    return bool(values)
 
 
 def _jumps(side: Any) -> bool:

@@ -11,6 +11,7 @@ import pytest
 import acausal as ac
 from acausal.command import main
 from acausal.components import translational as tl
+from acausal.modelica import statements
 from acausal.modelica.evaluate import Evaluator
 from acausal.modeling import Reference
 from benchmarks import import_
@@ -188,6 +189,27 @@ def test_what_an_array_of_parts_is_given_is_evaluated_once(
     file.write_text("\n".join(import_.FILES["arrays"](20)))
     assert len(ac.load(file).mass) == 10
     assert len(evaluated) == len({id(e) for e in evaluated}) == 3
+
+
+def test_parts_that_are_alike_are_read_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[str] = []
+    whole = statements.equations
+    monkeypatch.setattr(
+        statements, "equations", lambda b: (read.append(type(b.component).__name__), whole(b))[1]
+    )
+    file = tmp_path / "Text.mo"
+    file.write_text("\n".join(import_.FILES["own"](20)))
+    ac.load(file)
+    assert {"Chain", "Mass", "SpringDamper"} <= {*read}
+    assert len(read) < 8  # of 21 parts and the model
+    file.write_text("""package P
+      model A parameter Real k = 1; Real x = k; equation assert(k > 0, "k is small"); end A;
+      model M A a, b(k = -1); end M;
+    end P;""")
+    with pytest.raises(ac.ModelicaError, match="violated: k is small"):
+        ac.load(file)
 
 
 @pytest.mark.parametrize("selfcontained", [True, False])
