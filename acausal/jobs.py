@@ -7,6 +7,7 @@ serves the next. The bytes come from this program, not from files, and go to wor
 
 from __future__ import annotations
 
+import gc
 import logging
 import pickle
 import traceback
@@ -222,3 +223,16 @@ def _shown(name: str, count: int, progress: bool) -> Generator[Callable[[], None
             LOGGER.debug("%s: %d of %d tasks done", name, done, count)
 
         yield advance
+
+
+@contextmanager
+def collection_paused() -> Generator[None]:
+    """No search for cyclic garbage while a model or a program is built: of all that is made there, next to none is."""
+    if not gc.isenabled():
+        yield
+        return
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()

@@ -20,7 +20,6 @@ from acausal._jax import (
     array,
     as_key,
     check_time,
-    collection_paused,
     floating,
     is_real,
     need_double_precision,
@@ -54,6 +53,7 @@ from acausal.flattening import (
     with_inputs,
 )
 from acausal.initialization import Initialization, Initializer, initializer, overview
+from acausal.jobs import collection_paused
 from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
 from acausal.structure import ReducedModel, reduce, with_loop_guesses
 from acausal.units import check_dimensions

@@ -24,9 +24,17 @@ from typing import Any
 
 import acausal as ac
 
-from .modelica import ALSO_CALLED, ENUMERATIONS, MODELICA, NOT_COVERED
+from .modelica import ALSO_CALLED, ENUMERATIONS, MODELICA, NOT_COVERED, RENAMED
 
-__all__ = ["ALSO_CALLED", "ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
+__all__ = [
+    "ALSO_CALLED",
+    "ENUMERATIONS",
+    "FUNCTIONS",
+    "MODELICA",
+    "NOT_COVERED",
+    "RECORDS",
+    "RENAMED",
+]
 
 PACKAGES = (*dict.fromkeys(MODELICA.values()), "hydraulic", "neural")
 

@@ -23,6 +23,15 @@ MODELICA: dict[str, str] = {
 }
 """Package of Modelica, or the name under which a library imports it -> package below `acausal.components`."""
 
+RENAMED: dict[str, str] = {
+    "Modelica.Blocks.Sources.Clock": "Modelica.Blocks.Sources.ContinuousClock",
+    "Modelica.Blocks.Tables.CombiTable1D": "Modelica.Blocks.Tables.CombiTable1Dv",
+    "Modelica.Blocks.Tables.CombiTable2D": "Modelica.Blocks.Tables.CombiTable2Ds",
+    "Modelica.Electrical.Analog.Basic.EMF": "Modelica.Electrical.Analog.Basic.RotationalEMF",
+    "Modelica.Thermal.FluidHeatFlow.Components.IsolatedPipe": "Modelica.Thermal.FluidHeatFlow.Components.Pipe",
+}
+"""Name of a class in version 3.2.3 -> its name since 4.0.0."""
+
 NOT_COVERED: dict[str, str] = {
     "Modelica.Mechanics.Rotational.Interfaces": "InternalSupport",
     "Modelica.Mechanics.Translational.Interfaces": (

@@ -36,7 +36,6 @@ from .primitives import (
     shapes as shapes,
 )
 from .programs import (
-    collection_paused as collection_paused,
     compile_ahead as compile_ahead,
     compiled as compiled,
 )

@@ -6,10 +6,9 @@ a server of a week, models come and go; their programs would be 2 MB each that n
 
 from __future__ import annotations
 
-import gc
 from collections import OrderedDict
-from collections.abc import Callable, Generator
-from contextlib import contextmanager, nullcontext, suppress
+from collections.abc import Callable
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from functools import wraps
 from inspect import unwrap
@@ -18,6 +17,8 @@ from typing import Any, ParamSpec, TypeVar
 
 import jax
 import numpy as np
+
+from acausal.jobs import collection_paused
 
 P = ParamSpec("P")
 Result = TypeVar("Result")
@@ -98,19 +99,6 @@ def _program(function: Callable[..., Any], args: Any, kwargs: Any) -> tuple[Kept
 def _compile(lowered: Any) -> None:
     with suppress(Exception):  # the call says what is wrong
         lowered.compile()
-
-
-@contextmanager
-def collection_paused() -> Generator[None]:
-    """No search for cyclic garbage while a model or a program is built: of all that is made there, next to none is."""
-    if not gc.isenabled():
-        yield
-        return
-    gc.disable()
-    try:
-        yield
-    finally:
-        gc.enable()
 
 
 def _kind(leaf: Any) -> Any:

@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from acausal.modelica.algorithms import Left
 from acausal.modelica.operators import Frame
 from acausal.modelica.sections import SectionReader, collect, is_discrete
 from acausal.modelica.syntax import Branches, DottedName, EquationStatement, Statement
 from acausal.modelica.values import as_array, as_record, each, elements, is_record
-from acausal.modeling import Discrete, Start, When, change, pre
+from acausal.modeling import Discrete, Parameter, Reference, Start, When, change, pre
 
 LARGE = 1000
 """A value of so many parts, at least, is kept as a variable between two statements of an algorithm."""
@@ -46,6 +47,11 @@ class AlgorithmReader(SectionReader):
                 f"'{both[0]}' is assigned within 'when' and outside of it, which is not supported"
             )
         variables = {w: build.member(w) for w in sorted(always | at_events) if w in build.names}
+        for word, value in variables.items():
+            first = elements(value)[0] if np.size(value) else None
+            fixed = not isinstance(first, Reference) or isinstance(first.declaration, Parameter)
+            if fixed and not is_record(as_record(value)):
+                raise self.wrong(f"'{word}' is no variable that an algorithm assigns")
         always |= {w for w in at_events if sum(w in _assigned_by(s) for s in whens) > 1}
         local: dict[str, Any] = {
             w: self._before(w, variables[w]) if w in always else variables[w] for w in variables
@@ -61,7 +67,7 @@ class AlgorithmReader(SectionReader):
             elif isinstance(statement, EquationStatement) and statement not in own:
                 yield from self._equation(statement)
             else:
-                self.execute([statement], local)
+                self._perform(statement, local)
         self.frame, self.assigned = frame, {}
         yield from self.further
         for word in sorted(always & set(variables), key=list(build.names).index):
@@ -86,6 +92,12 @@ class AlgorithmReader(SectionReader):
             local[w] = self.chosen(change(changed), value, local[w])
         self.later = {w: v for w, v in self.later.items() if w not in assigned}
         return found
+
+    def _perform(self, statement: Statement, local: dict[str, Any]) -> None:
+        try:
+            self.execute([statement], local)
+        except Left as error:
+            raise self.wrong(f"'{error}' stands in loops and functions", len(str(error))) from None
 
     def _before(self, word: str, variable: Any) -> Any:
         """The value of a variable when an algorithm begins: its last one, or its start; None where none is given."""

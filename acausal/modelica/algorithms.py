@@ -33,10 +33,8 @@ MAX_PARTS = 100_000
 REFUSED = {
     "delay": "use the block Modelica.Blocks.Nonlinear.PadeDelay, an approximation",
     "spatialDistribution": "divide the pipe into volumes",
-    "terminal": "use an equation of time",
     "inStream": "use connectors without stream variables",
     "actualStream": "use connectors without stream variables",
-    "getInstanceName": "write the name as a text",
     **dict.fromkeys(
         ("Clock", "previous", "hold", "interval", "subSample", "superSample", "noClock"),
         "write 'when sample(start, period) then', or use Modelica.Blocks.Discrete",
@@ -52,12 +50,13 @@ class Algorithms(Evaluator):
     """Executes the statements of algorithms.
 
     Attributes:
-        statements: how many were executed.
+        statements: how many were executed. inputs: of the function, which it cannot assign.
         path: under which condition that changes with time the present statements are executed.
         left: under which condition ``break`` or ``return`` has left them; ``returned``: ``return`` alone.
     """
 
     statements: int = 0
+    inputs: frozenset[str] = frozenset()
     path: Any = True
     left: Any = False
     returned: Any = False
@@ -122,6 +121,8 @@ class Algorithms(Evaluator):
             what = target.text if isinstance(target, DottedName) else "this"
             raise self.wrong(f"'{what}' cannot be assigned here")
         word = target.words[0]
+        if word in self.inputs:
+            raise self.wrong(f"'{word}' is an input; assign a protected variable", len(word))
         if any(isinstance(v, sp.Basic) and _parts(v) > MAX_PARTS for v in elements(value)):
             raise self.wrong(
                 f"'{word}' becomes an expression of more than {MAX_PARTS} parts; make fewer steps, "
@@ -246,6 +247,8 @@ class Algorithms(Evaluator):
         """
         word = call.function.text
         self.at = call.at
+        if self.frame.build is not None:
+            self.frame.build.performs = True
         found, rest = self.frame.find(call.function.words)
         if self.full_name(call) == "Modelica.Utilities.Streams.print":
             self.unwatched(call, "this text is not printed")
@@ -258,6 +261,13 @@ class Algorithms(Evaluator):
             raise self.wrong(f"{word}(...) is not supported here{hint}", len(word))
         else:
             self.checked(call)
+
+    def at_the_end(self, call: FunctionCall) -> bool:
+        """``terminal()``, which is false while a model runs."""
+        self.unwatched(
+            call, "the end of a simulation is no event; what is to happen then is left out"
+        )
+        return False
 
     def full_name(self, call: FunctionCall) -> str:
         """The full name of a function, where its text is known."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections import ChainMap
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, cast
 
 import numpy as np
@@ -28,10 +29,11 @@ from acausal.modelica.modifications import (
 from acausal.modelica.operators import Frame
 from acausal.modelica.outer import inner_of
 from acausal.modelica.overconstrained import ConnectionGraph, Edge
+from acausal.modelica.rules import check_replacement
 from acausal.modelica.syntax import ClassDefinition, LiteralConstant, ModificationSyntax
 from acausal.modelica.types import Type, is_component, type_of_declared
-from acausal.modelica.values import ABSENT, Record, as_array, of
-from acausal.modelica.variables import declare
+from acausal.modelica.values import ABSENT, FoundOnce, Record, as_array, of
+from acausal.modelica.variables import declare, sizes_of
 from acausal.modelica.views import Entry
 from acausal.modeling import Component, Connector, Reference, charge, element_name
 
@@ -58,6 +60,7 @@ class ModelicaModel(Component):
         _given: Sequence[Given] = (),
         _above: Build | None = None,
         _variability: str = "",
+        _name: str = "",
         **modifiers: Any,
     ) -> None:
         own = [
@@ -71,7 +74,7 @@ class ModelicaModel(Component):
             if name in self._class.view().entries and isinstance(value, int | float | str | list)
         ]
         build = Build(self, self._class, [*own, *_given], _above)
-        build.variability = _variability
+        build.variability, build.name = _variability, _name
         self.__dict__["_build"] = build
         build.make(super().__init__)
         self.modify(**{n: v for n, v in modifiers.items() if n not in {g.name for g in own}})
@@ -132,6 +135,7 @@ class Build:
         classes: replaceable classes that are redeclared.
         bindings: part, variable and the expression that it equals.
         parts_of_text: its parts whose classes are Modelica text.
+        name: of the component in the one around it.
         variability: ``parameter`` or ``constant`` of a record that is declared so.
         connected: whether all connections of the model have been made.
         outer: variables of components around it, and what stands for each here.
@@ -139,6 +143,9 @@ class Build:
         graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
         fixed: of arrays of which some elements alone are fixed at the start, which.
+        performs: whether it calls functions of the text or asserts something, which depends on values.
+        bound_inputs: inputs that have a value, and are no signals therefore.
+        kept: arrays of its variables by name, and what arrays of parts are given, by `id` of the expression.
         counted: how often connectors are connected, by owner and name; not by what `statements.check` adds.
     """
 
@@ -151,7 +158,7 @@ class Build:
         self.absent: set[str] = set()
         self.classes: dict[str, Any] = {}
         self.bindings: list[tuple[Component, str, Bound]] = []
-        self.variability, self.connected = "", False
+        self.variability, self.name, self.connected = "", "", False
         self.outer: dict[Reference, Reference] = {}
         self.given_inwards: list[tuple[Reference, Reference]] = []
         self.decided: dict[str, float] = {}
@@ -161,6 +168,7 @@ class Build:
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
         self.graph, self.edges = ConnectionGraph(), list[Edge]()
+        self.kept, self.bound_inputs, self.performs = FoundOnce(), set[str](), False
 
     @property
     def entries(self) -> dict[str, Entry]:
@@ -168,9 +176,10 @@ class Build:
         return self.node.view().entries
 
     @property
-    def names(self) -> dict[str, Any]:
+    def names(self) -> Mapping[str, Any]:
         """Components of the class, and what it inherits from a library."""
-        return {**self.component._declared, **self.component._node.children, **self.entries}
+        children: dict[str, Any] = self.component._node.children
+        return ChainMap(self.entries, children, self.component._declared)  # pyright: ignore[reportArgumentType]
 
     def frame(self, node: ClassNode) -> Frame:
         """Where expressions of a class that it consists of are looked up."""
@@ -246,6 +255,13 @@ class Build:
         raise self.node.refused(reason)
 
     @property
+    def path(self) -> str:
+        """The name of the component with those of the components around it, the model's first."""
+        if self.above is None:
+            return self.node.definition.name
+        return f"{self.above.path}.{self.name}"
+
+    @property
     def _depth(self) -> int:
         return 0 if self.above is None else self.above._depth + 1
 
@@ -259,7 +275,12 @@ class Build:
                     raise one.wrong(f"{self.node.definition.name} has no class '{one.name}'")
                 if isinstance(own, ClassNode) and not own.definition.prefixes.replaceable:
                     raise one.wrong(f"'{one.name}' is not replaceable")
-                self.classes[one.name] = redeclared_class(one.redeclared, one.frame)
+                found = redeclared_class(one.redeclared, one.frame)
+                if isinstance(own, ClassNode):
+                    constraint = own.definition.constraint
+                    old = own if constraint is None else own.lookup(constraint.base.words)[0]
+                    check_replacement(one.name, found, old, one.wrong)
+                self.classes[one.name] = found
         for name, (element, node) in view.classes.items():
             definition = element if isinstance(element, ClassDefinition) else element.redeclared
             assert isinstance(definition, ClassDefinition)
@@ -307,13 +328,32 @@ class Build:
         if mod.redeclared is not None:
             declared, frame = mod.redeclared.redeclared, mod.redeclared.frame
         found = type_of_declared(frame, declared)
+        if mod.redeclared is not None:
+            own = entry.declared
+            kind = own.type if own.constraint is None else own.constraint.base
+            old, rest = entry.node.lookup(kind.words)
+            new, left = frame.find(declared.type.words)
+            if not rest and not left:
+                check_replacement(name, new, old, mod.redeclared.wrong)
+        if found.is_connector and self._needs_causality(entry, found):
+            raise entry.wrong(f"'{name}' of a block is input or output")
         sizes = found.sizes(declared.subscripts or entry.declared.subscripts, frame)
         if found.predefined:
             declare(self, name, entry, found, mod, sizes)
         else:
-            known = [Interpreter(f).size(s) for s, f in sizes]
+            known = sizes_of(entry, mod.value, sizes)
             value = self.parts(name, entry, found, mod, known)
             self.assign(name, entry, value)
+
+    @staticmethod
+    def _needs_causality(entry: Entry, found: Type) -> bool:
+        """Whether this is a public connector that a block declares without a causality (section 4.7)."""
+        declared = entry.declared
+        public = entry.node.definition.kind == "block" and not declared.prefixes.protected
+        if found.node is None or found.node.definition.expandable or not public:
+            return False
+        inner = [e.declared.prefixes.causality for e in found.node.view().entries.values()]
+        return not any((declared.prefixes.causality, found.causality, *inner))
 
     def assign(self, name: str, entry: Entry, value: Any) -> None:
         """Give the component an attribute.
@@ -375,7 +415,7 @@ class Build:
             return part
         charge("components", 1, entry.declared.name)
         variability = entry.declared.prefixes.variability or self.variability
-        part = class_of(node)(_given=inner, _above=self, _variability=variability)
+        part = class_of(node)(_given=inner, _above=self, _variability=variability, _name=name)
         self.parts_of_text.append(part)
         return part
 

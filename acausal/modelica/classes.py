@@ -10,6 +10,7 @@ from typing import Any
 from acausal.errors import nearest
 from acausal.modelica.grammar import parse
 from acausal.modelica.meanings import PATH_HINT, Imported, Native, Predefined, Prefix, unknown_name
+from acausal.modelica.rules import check_base, check_same, check_sections
 from acausal.modelica.syntax import (
     ClassDefinition,
     Declared,
@@ -28,6 +29,7 @@ class ClassNode:
     Attributes:
         parent: the class or package around it.
         folder: of a package that is a folder; other files there are its classes.
+        unwatched: statements of which a warning was given. checked: what was found right, see `statements.check`.
     """
 
     def __init__(
@@ -41,6 +43,7 @@ class ClassNode:
         self.children: dict[str, Any] = {}
         self.python: type | None = None
         self.unwatched: set[int] = set()
+        self.checked: set[Any] = set()
         self._viewed = False
         self._bases: dict[int, Any] = {}
         self._searching: set[str] = set()
@@ -127,7 +130,8 @@ class ClassNode:
             for extends in self.extends:
                 for argument in extends.modifier.arguments:
                     if argument.name == name and isinstance(argument.redeclared, ClassDefinition):
-                        return ClassNode(argument.redeclared, self, self.tree)
+                        new = ClassNode(argument.redeclared, self, self.tree)
+                        return self.children.setdefault(f"{name} at {argument.at}", new)
                 base = self.base(extends, quiet=True)
                 found = self.tree.inside(base, name)
                 if found is not None and not self._is_guess(found):
@@ -194,6 +198,8 @@ class ClassNode:
             for clause in above.extends if isinstance(above, ClassNode) else ():
                 assert isinstance(above, ClassNode)
                 found = self.tree.inside(above.base(clause), self.definition.name)
+                if isinstance(found, ClassNode) and not found.definition.prefixes.replaceable:
+                    raise self.refused(f"'{self.definition.name}' is not replaceable in the base")
                 if found is not None:
                     return above._inherited_class(f"{self.definition.name} of the base", found)
         if id(extends) in self._bases:
@@ -305,6 +311,7 @@ class ClassNode:
         if self._viewed:
             raise self.refused(f"'{self.definition.name}' extends itself")
         self._viewed = True
+        check_sections(self)
         view, short = ClassView(), self.definition.short
         if self.definition.literals is not None:
             view.predefined = Predefined(self.full)
@@ -316,6 +323,8 @@ class ClassNode:
                     known = view.entries.get(element.name)
                     if known is not None and known.node is self:
                         raise self.twice(element)
+                    if known is not None and not element.prefixes.redeclare:
+                        check_same(self, element, known.declared)
                     modifiers = known.modifiers if known and not element.prefixes.redeclare else []
                     view.entries[element.name] = Entry(element, self, list(modifiers))
                 case ClassDefinition() if element.prefixes.redeclare:
@@ -365,6 +374,7 @@ class ClassNode:
                     f"'{clause.base.text}' is not a class to extend",
                     len(clause.base.text),
                 )
+        check_base(self, clause, base)
         inherited = base.view() if not self.redeclares else base.view().within(self._scope)
         for native, given in inherited.natives:
             view.natives.append((native, [*self._for_native(arguments, inherited), *given]))
@@ -388,7 +398,8 @@ class ClassNode:
                 hint = nearest(argument.name, inherited.entries)
                 reason = f"'{base.definition.name}' has no '{argument.name}'; {hint}"
                 raise self.wrong(argument.at, reason, len(argument.name))
-        view.sections += inherited.sections
+        known = {id(stated) for _, stated, _ in view.sections}  # of a base on two ways once
+        view.sections += [one for one in inherited.sections if id(one[1]) not in known]
 
     def _with_all(
         self, base: Native, arguments: list[tuple[ModificationArgument, ClassNode]]

@@ -32,6 +32,7 @@ from acausal.modelica.values import (
     is_array,
     is_end,
     nested,
+    without_index,
 )
 from acausal.modeling import Component, Connector, Eq, Reference, owner_and_name
 
@@ -104,6 +105,8 @@ class Connecting(Interpreter):
                 left
             ) == owner_and_name(right):
                 return  # one end
+            case (Reference(), Reference()) if _has_value(left) or _has_value(right):
+                self.frame.build.given_inwards.append((left, right))
             case _:
                 try:
                     owners = [
@@ -155,6 +158,13 @@ class Connecting(Interpreter):
             if self.known(self.holds(test), "a condition of connections"):
                 return body
         return []
+
+
+def _has_value(end: Reference) -> bool:
+    """Whether this is an input whose declaration gives it a value, so that a connection is one more equation."""
+    component = getattr(end.owner, "component", None)
+    build = None if component is None else component.__dict__.get("_build")
+    return build is not None and without_index(end.path) in build.bound_inputs
 
 
 def _rows(ends: Any) -> list[Any]:

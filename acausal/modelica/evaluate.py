@@ -106,7 +106,11 @@ class Evaluator(Operators):
 
     def _matrix(self, expression: MatrixConstructor) -> Any:
         rows = [[self._two(self.value(v)) for v in row] for row in expression.rows]
-        return np.concatenate([np.concatenate(row, axis=1) for row in rows], axis=0)
+        try:
+            return np.concatenate([np.concatenate(row, axis=1) for row in rows], axis=0)
+        except ValueError:
+            shapes = "; ".join(", ".join(str(list(v.shape)) for v in row) for row in rows)
+            raise self.wrong(f"these do not fit into one matrix: [{shapes}]") from None
 
     def _two(self, value: Any) -> Any:
         found = value if isinstance(value, np.ndarray) else array_of([value])
@@ -238,15 +242,22 @@ class Evaluator(Operators):
             inner = of(value, name.words[i])
             if inner is None or (isinstance(inner, BusMember) and not self.connecting):
                 raise self.unknown(name, i, value)
+            subscripts = name.subscripts.get(i)
+            if subscripts is not None:
+                inner = self._elements_of(inner, len(shape_of(value)), subscripts)
             value = inner
-            if i in name.subscripts:
-                value = self.subscripted(value, name.subscripts[i])
             i += 1
         build, word = self.frame.build, name.words[0]
         known = None if build is None or self.connecting else build.entries.get(word)
         outer = known is not None and known.declared.prefixes.outer
         value = value if self.connecting else as_record(value)
         return mapped(partial(inwards, build), value) if build and outer else value
+
+    def _elements_of(self, value: Any, above: int, subscripts: list[Expression]) -> Any:
+        """Elements of a member; of the members of an array of parts, of ``above`` dimensions, of each."""
+        if not above:
+            return self.subscripted(value, subscripts)
+        return as_array([self._elements_of(v, above - 1, subscripts) for v in value])
 
     def _first(self, name: DottedName) -> tuple[Any, int]:
         """The value of the first words, and how many they are."""
@@ -264,6 +275,8 @@ class Evaluator(Operators):
                 raise self.wrong(f"'{word}' has no value; give one", len(word))
             return value, 1
         if word == "time" and len(name.words) == 1:
+            if frame.calls and frame.build is None:
+                raise self.wrong("a function knows no time; give it as an argument", len(word))
             return time, 1
         found, rest = frame.find(name.words)
         i = len(name.words) - len(rest)
@@ -286,7 +299,7 @@ class Evaluator(Operators):
                         frame.build is None or node is not frame.node
                     ):
                         return self.constant(node, word), 1
-                    node = node.parent
+                    node = None if node.definition.encapsulated else node.parent
             case _:
                 pass
         for library in (

@@ -17,6 +17,7 @@ from acausal.modelica.classes import ClassNode
 from acausal.modelica.language import SPECIAL
 from acausal.modelica.meanings import Native, Predefined, Value
 from acausal.modelica.operators import MAX_CALLS, Frame
+from acausal.modelica.rules import check_function
 from acausal.modelica.syntax import (
     ClassDefinition,
     DottedName,
@@ -25,6 +26,7 @@ from acausal.modelica.syntax import (
     LiteralConstant,
     Whole,
 )
+from acausal.modelica.tokens import PREDEFINED, ModelicaError
 from acausal.modelica.values import (
     FunctionValue,
     Record,
@@ -59,6 +61,8 @@ class Interpreter(Algorithms):
         if call.partial or isinstance(local, FunctionValue):
             return self._of_argument(self.function(call), call)
         special = SPECIAL.get(name)
+        if name == "terminal":
+            return self.at_the_end(call)
         if special is not None and name not in self.frame.local:
             return special(self, call)
         if name in REFUSED and name not in self.frame.local:
@@ -214,6 +218,9 @@ class Interpreter(Algorithms):
             ModelicaError: for a function that is written in another language, or a loop without a known end.
         """
         definition, view, at = node.definition, node.view(), call.at
+        check_function(node)
+        if self.frame.build is not None:
+            self.frame.build.performs = True
         length = len(call.function.text)
         if self.frame.calls > MAX_CALLS:
             raise self.wrong(f"functions call each other more than {MAX_CALLS} deep", length)
@@ -235,7 +242,10 @@ class Interpreter(Algorithms):
                 f"{definition.name} takes {len(inputs)} arguments, not {len(call.arguments)}",
                 length,
             )
-        stated = dict(zip(inputs, call.arguments, strict=False)) | call.named
+        placed = dict(zip(inputs, call.arguments, strict=False))
+        if twice := [n for n in call.named if n in placed]:
+            raise self.wrong(f"{definition.name} is given '{twice[0]}' twice", length)
+        stated = placed | call.named
         values: dict[str, Any] = {}
         for name, expression in stated.items():
             if name not in inputs:
@@ -262,6 +272,9 @@ class Interpreter(Algorithms):
                 raise self.wrong(f"{definition.name} needs '{name}'", length)
             else:
                 local[name] = there.empty(entry)
+        for name in values:
+            self._need_argument(view.entries[name], local[name], inner)
+        inner.inputs = frozenset(inputs)
         for kind, statements, owner in view.sections:
             if kind == "algorithms":
                 inner.frame = replace(frame, node=owner)
@@ -272,6 +285,26 @@ class Interpreter(Algorithms):
             if local[name] is None or any(v is None for v in elements(local[name])):
                 raise self.wrong(f"{definition.name} does not assign '{name}'", length)
         return [local[name] for name in outputs]
+
+    def _need_argument(self, entry: Entry, value: Any, inner: Interpreter) -> None:
+        """Refuse an argument of another type or size than its declaration has."""
+        name, subscripts = entry.declared.name, entry.declared.subscripts
+        kind = entry.declared.type.text
+        if kind in PREDEFINED:
+            for element in elements(value):
+                self.need_type(kind, element)
+        shape = np.shape(value)
+        if not isinstance(value, np.ndarray) or len(shape) != len(subscripts):
+            return
+        for expression, size in zip(subscripts, shape, strict=True):
+            with suppress(ModelicaError):  # of what is not known yet
+                wanted = size if isinstance(expression, Whole) else inner.size(expression)
+                if wanted != size:
+                    reason = f"'{name}' has {wanted} elements there, not {size}"
+                    break
+        else:
+            return
+        raise self.wrong(reason)
 
     def _for_each_element(
         self, node: ClassNode, call: FunctionCall, values: dict[str, Any], arrays: list[str]

@@ -111,6 +111,9 @@ class _Reader(Expressions):
             if not self.accept(":"):
                 while self.peek != ")":
                     name = self.identifier()
+                    if name in found.literals:
+                        self.position -= 1
+                        raise self.wrong(f"'{name}' is in this enumeration already")
                     found.literals[name] = self.texts[self.position - 1]
                     self.comment(found)
                     if not self.accept(","):

@@ -26,7 +26,18 @@ from acausal.modelica.values import (
     shape_of,
     type_of,
 )
-from acausal.modeling import change, check_size, der, edge, initial, owner_and_name, pre, sample
+from acausal.modeling import (
+    Discrete,
+    Reference,
+    change,
+    check_size,
+    der,
+    edge,
+    initial,
+    owner_and_name,
+    pre,
+    sample,
+)
 from acausal.netlist import function as known_function
 
 
@@ -62,6 +73,12 @@ def _semi_linear(self: Evaluator, call: FunctionCall) -> Any:
     return self.chosen(holds, self.arithmetic("*", a, x), self.arithmetic("*", b, x))
 
 
+def _edge(self: Evaluator, call: FunctionCall) -> Any:
+    if any(type_of(v) in ("Real", "Integer") for v in elements(self.arguments(call, 1)[0])):
+        raise self.wrong("edge(...) takes a Boolean")
+    return _mapped(edge)(self, call)
+
+
 def _mapped(function: Callable[[Any], Any]) -> Callable[[Evaluator, FunctionCall], Any]:
     """A function of one variable, applied to each element."""
 
@@ -84,9 +101,12 @@ def _mapped(function: Callable[[Any], Any]) -> Callable[[Evaluator, FunctionCall
 
 def _der(self: Evaluator, call: FunctionCall) -> Any:
     (value,) = self.arguments(call, 1)
+    if self.frame.calls and self.frame.build is None:
+        raise self.wrong("a function has no derivatives; give them as arguments", len("der"))
     for element in elements(value):
-        if type_of(element) in ("Boolean", "String"):
-            raise self.wrong("only a Real has a derivative")
+        discrete = isinstance(element, Reference) and isinstance(element.declaration, Discrete)
+        if discrete or type_of(element) in ("Boolean", "String"):
+            raise self.wrong("only a Real that moves has a derivative")
     return each(lambda v: der(self.number(v)), value)
 
 
@@ -202,11 +222,16 @@ def _array(self: Evaluator, call: FunctionCall) -> Any:
 
 def _cross(self: Evaluator, call: FunctionCall) -> Any:
     a, b = self.arguments(call, 2)
+    if np.shape(a) != (3,) or np.shape(b) != (3,):
+        raise self.wrong("cross(...) takes two vectors of 3 elements")
     return array_of([a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))])
 
 
 def _skew(self: Evaluator, call: FunctionCall) -> Any:
-    x, y, z = self.arguments(call, 1)[0]
+    (vector,) = self.arguments(call, 1)
+    if np.shape(vector) != (3,):
+        raise self.wrong("skew(...) takes a vector of 3 elements")
+    x, y, z = vector
     minus = [self.arithmetic("-", 0, v) for v in (x, y, z)]
     return array_of([[0, minus[2], y], [z, 0, minus[0]], [minus[1], x, 0]])
 
@@ -300,6 +325,12 @@ def _string(self: Evaluator, call: FunctionCall) -> Any:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
+def _instance_name(self: Evaluator, call: FunctionCall) -> Any:
+    self.arguments(call, 0)
+    build = self.frame.build
+    return self.frame.node.definition.name if build is None else build.path
+
+
 def _resource(self: Evaluator, call: FunctionCall) -> Any:
     """The path of a file; one within a package, ``modelica://Package/file``, is relative to its folder."""
     (text,) = self.arguments(call, 1)
@@ -338,7 +369,7 @@ def _eigenvalues(matrix: Any) -> Any:
 
 
 SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
-    "der": _der, "pre": _mapped(pre), "edge": _mapped(edge), "change": _mapped(change),
+    "der": _der, "pre": _mapped(pre), "edge": _edge, "change": _mapped(change),
     "initial": _initial, "sample": _sample, "noEvent": _no_event, "smooth": _smooth,
     "homotopy": _homotopy, "semiLinear": _semi_linear,
     "sum": _reduction("sum"), "product": _reduction("product"), "min": _reduction("min"), "max": _reduction("max"),
@@ -351,7 +382,7 @@ SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "integer": _rounding(_floor, 1), "floor": _rounding(_floor, 1), "ceil": _rounding(_ceil, 1),
     "div": _rounding(_div, 2), "mod": _rounding(_mod, 2), "rem": _rounding(_rem, 2),
     "Integer": _rounding(_integer_of, 1), "String": _string, "cardinality": _cardinality, "assert": _assertion,
-    "Modelica.Utilities.Files.loadResource": _resource,
+    "getInstanceName": _instance_name, "Modelica.Utilities.Files.loadResource": _resource,
     "Modelica.Math.Vectors.norm": _norm, "Modelica.Math.Vectors.length": _norm,
     "Modelica.Math.Matrices.inv": _of_numbers(np.linalg.inv), "Modelica.Math.Matrices.det": _of_numbers(np.linalg.det),
     "Modelica.Math.Matrices.solve": _of_numbers(np.linalg.solve, 2),

@@ -13,9 +13,12 @@ from acausal.modelica.functions import Interpreter
 from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Given, Modification
 from acausal.modelica.syntax import ArrayConstructor
-from acausal.modelica.values import nested, of
+from acausal.modelica.values import each, nested, of
 from acausal.modeling import Component, Eq, Option, Variable, check_nested, element_name
-from acausal.netlist import NetlistError, Scope, is_structural, make, modify
+from acausal.netlist import NetlistError, Scope, evaluated, is_structural, make, modify
+
+RENAMED = {"freqHz": "f"}
+"""Name of a parameter in version 3.2.3 of the Modelica Standard Library -> its name since 4.0.0."""
 
 
 class ModifierValues(Scope):
@@ -50,7 +53,7 @@ def make_part(cls: Any, given: Sequence[Given], base: Any = None) -> Any:
         cls = next(c for c in cls.__mro__ if not hasattr(c, "_class"))
     raw: dict[str, Any] = {}
     first: Given | None = None
-    for name, (mod, one) in grouped(given).items():
+    for name, (mod, one) in grouped(given, cls).items():
         if is_structural(cls, name):
             first = first or one
             raw[name] = _structural(cls, name, mod)
@@ -76,7 +79,7 @@ def _structural(cls: Any, name: str, mod: Modification) -> Any:
 def modify_part(build: Any, part: Component, given: Sequence[Given]) -> None:
     """Apply the other modifiers; a value for a variable becomes an equation of the class that states it."""
     cls = type(part)
-    for name, (mod, one) in grouped(given).items():
+    for name, (mod, one) in grouped(given, cls).items():
         declared = part._node.declaration(name)
         native = next(c for c in cls.__mro__ if not hasattr(c, "_class"))
         if is_structural(native, name):
@@ -128,8 +131,8 @@ def bind(build: Any, part: Component, path: str, mod: Modification) -> None:
         mod.value = None
 
 
-def grouped(given: Sequence[Given]) -> dict[str, tuple[Modification, Given]]:
-    """What each name gets, and the outermost argument for it.
+def grouped(given: Sequence[Given], cls: Any = None) -> dict[str, tuple[Modification, Given]]:
+    """What each name gets, and the outermost argument for it; earlier names of a class's parameters become the present.
 
     Raises:
         ModelicaError: for a modifier of what is final, or a class that replaces one within a library's class.
@@ -138,7 +141,9 @@ def grouped(given: Sequence[Given]) -> dict[str, tuple[Modification, Given]]:
     for one in given:
         if one.redeclared is not None:
             raise one.wrong("a redeclaration within a class of the library is not supported")
-        mod, first = found.setdefault(one.name, (Modification(), one))
+        present = RENAMED.get(one.name, one.name)
+        known = cls is not None and one.name not in cls._declared and present in cls._declared
+        mod, first = found.setdefault(present if known else one.name, (Modification(), one))
         if one.final and first is not one:
             raise first.wrong(f"'{one.name}' is final")
         mod.add(one.modifier, one.frame, one.index)
@@ -151,9 +156,23 @@ def _raw(mod: Modification) -> Any:
     if not mod.inner:
         return value
     rest = {name: _raw(inner) for name, (inner, _) in grouped(mod.inner).items()}
+    if "nominal" in rest:
+        rest["nominal"] = nominal_of(rest["nominal"])
     if isinstance(rest.get("start"), Literal):
         rest["start"] = rest["start"].number
     return rest if value is None else {"=": value, **rest}
+
+
+def nominal_of(value: Any) -> Any:
+    """A nominal value, of which parameters become numbers; what they do not decide is left out."""
+
+    def number(v: Any) -> Any:
+        return evaluated(v, "a nominal value", {}) if isinstance(v, sp.Expr) else v
+
+    try:
+        return each(number, value)
+    except (ModelError, TypeError):
+        return None
 
 
 def _placed(one: Given, part: Component, name: str, raw: Any) -> None:

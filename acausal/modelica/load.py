@@ -9,6 +9,7 @@ from types import ModuleType
 from acausal import netlist
 from acausal.errors import ModelError, listing, nearest, need_flag, shown
 from acausal.files import need_path, need_paths
+from acausal.jobs import collection_paused
 from acausal.modelica.build import class_of
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.tokens import ModelicaError
@@ -55,7 +56,7 @@ def load(
     allowed = Budget() if budget is None else budget
     tree = Tree(netlist.libraries_of(libraries), folders)
     native = need_flag(allow_native, "load: allow_native", ModelError)
-    with spending(allowed, file.parent if native else None):
+    with collection_paused(), spending(allowed, file.parent if native else None):
         nodes = tree.add(file / "package.mo" if file.is_dir() else file)
         found = class_of(_wanted(file, tree, nodes, model))()
         netlist.check_sizes(found)

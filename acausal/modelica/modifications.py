@@ -75,7 +75,7 @@ class Bound:
 
     def value(self) -> Any:
         """Its value."""
-        found = Interpreter(self.frame).value(self.expression)
+        found = self._whole()
         for i, size in self.index:
             if not is_array(found):
                 return found
@@ -83,6 +83,13 @@ class Bound:
                 raise self.wrong(f"{size} elements are needed here, not {len(found)}")
             found = found[i]
         return found
+
+    def _whole(self) -> Any:
+        """The value of the expression; that of an array is found once for all of its elements."""
+        build, source = self.frame.build, self.expression
+        if not self.index or build is None:
+            return Interpreter(self.frame).value(source)
+        return build.kept.of(id(source), source, lambda: Interpreter(self.frame).value(source))
 
     def element(self, index: Index) -> Bound:
         """What is meant for one element of an array."""

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.errors import ModelError, shortened
+from acausal.errors import ModelError, shown
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.meanings import Literal
 from acausal.modelica.syntax import (
@@ -16,12 +16,13 @@ from acausal.modelica.syntax import (
     Expression,
     OperatorExpression,
 )
-from acausal.modelica.tokens import ModelicaError
+from acausal.modelica.tokens import PREDEFINED, ModelicaError
 from acausal.modelica.values import (
     Absent,
     Record,
     each,
     identity,
+    is_real,
     is_record,
     type_of,
 )
@@ -205,6 +206,14 @@ class Operators(Arithmetic):
         """The condition of a branch; that of ``else`` is true."""
         return True if test is None else self.truth(self.value(test))
 
+    def need_type(self, kind: str, value: Any) -> None:
+        """Refuse a value that surely has another type than the variable that it is for."""
+        if kind == "Integer" and is_real(value):
+            raise self.wrong("an Integer is needed here, this is a Real; integer(...) rounds it")
+        plain = isinstance(value, int | float) and not isinstance(value, bool)
+        if kind and kind not in PREDEFINED and plain:
+            raise self.wrong(f"a value of {kind} is needed here, not a number")
+
     def number(self, value: Any) -> Any:
         """A value to calculate with."""
         if isinstance(value, Absent):
@@ -224,7 +233,7 @@ class Operators(Arithmetic):
         if isinstance(value, float) and value.is_integer():
             value = int(value)
         if isinstance(value, bool) or not isinstance(value, int):
-            raise self.wrong(f"{what} is a whole number, not {shortened(repr(value), 40)}")
+            raise self.wrong(f"{what} is a whole number, not {shown(value, 40)}")
         return value
 
     def known(self, value: Any, what: str) -> Any:

@@ -120,6 +120,10 @@ class SectionReader(Connecting):
         truths = [kind == "Boolean" for kind in (type_of(left), type_of(right)) if kind]
         if len(truths) == 2 and truths[0] != truths[1]:
             raise self.wrong("one side is a Boolean, the other is not")
+        if isinstance(left, Reference) and not isinstance(right, Reference):
+            self.need_type(
+                type_of(left), right
+            )  # an Integer may give a Real its value, and stand on the left
         sides = [v.number if isinstance(v, Literal) else v for v in (left, right)]
         for side in sides:
             if isinstance(side, str):

@@ -13,10 +13,12 @@ from acausal.modelica.algorithm_sections import AlgorithmReader
 from acausal.modelica.connecting import ends_of
 from acausal.modelica.modifications import Bound
 from acausal.modelica.sections import SectionReader, collect, is_discrete
+from acausal.modelica.syntax import Branches
 from acausal.modelica.values import (
     as_array,
     elements,
     of,
+    type_of,
 )
 from acausal.modeling import (
     Component,
@@ -89,6 +91,10 @@ def initial_equations(build: Any) -> Iterator[Any]:
 def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
     """What the sections of two kinds state, in the order of the text."""
     for kind, stated, node in build.node.view().sections:
+        if kind == equations == "initial_equations":
+            for one in stated:
+                if isinstance(one, Branches) and one.word == "when":
+                    raise node.wrong(one.at, "'when' does not stand in initial equations")
         if kind == equations:
             yield from SectionReader(build.frame(node)).stated(stated)
         elif kind == algorithms:
@@ -109,8 +115,11 @@ def check(build: Any) -> None:
     of its own that an equation gives a number, as nobody connects them, are connected to outputs around it.
     """
     component, node = build.component, build.component._node
+    form, declared, own = _form_of(build), len(node.own_declarations), True
+    if form is not None and form in build.node.checked:
+        return
     stated = [s for s in equations(build) if isinstance(s, Eq)]
-    start(component, stated, [*_read(build, "initial_equations", "initial_algorithms")])
+    started = start(component, stated, [*_read(build, "initial_equations", "initial_algorithms")])
     ends = {end for pair in node.connections for end in pair}
     symbols = [
         s for equation in stated for side in (equation.lhs, equation.rhs) for s in references(side)
@@ -126,10 +135,33 @@ def check(build: Any) -> None:
             name = re.sub(r"\W+", "_", ".".join((*route, symbol.path)))
             setattr(around, f"{name}_given", Output(unit=symbol.declaration.unit))
             around.connect(getattr(around, f"{name}_given"), symbol)
+            own = False
+    alone = own and not (started or build.performs or build.decided or build.counted)
+    if form is not None and alone and declared == len(node.own_declarations):
+        build.node.checked.add(form)
 
 
-def start(component: Component, stated: list[Eq], initial: list[Eq]) -> None:
-    """Give discrete variables the starts that follow from initial equations, through equations of two variables."""
+def _form_of(build: Any) -> Any:
+    """What decides what a component without parts states; None for others, which are read one by one."""
+    node, made = build.component._node, build.made
+    plain = all(isinstance(v, bool | int | float | str) for v in made.values())
+    if node.children or build.outer or build.bindings or build.given_inwards or not plain:
+        return None
+    declared = [
+        (name, type(d), getattr(d, "shape", None), getattr(d, "kind", None))
+        for name, d in node.own_declarations.items()
+    ]
+    sizes = [(n, np.shape(v)) for n, v in node.modifiers.items() if isinstance(v, np.ndarray)]
+    classes = [(name, id(cls)) for name, cls in build.classes.items()]
+    return (*sorted(made.items()), *sorted(build.absent), *declared, *sizes, *classes)
+
+
+def start(component: Component, stated: list[Eq], initial: list[Eq]) -> bool:
+    """Give discrete variables the starts that follow from initial equations, through equations of two variables.
+
+    Returns:
+        Whether there are some.
+    """
     values: dict[Any, float] = {
         e.lhs: float(e.rhs) for e in initial if _jumps(e.lhs) and e.rhs.is_number
     }
@@ -143,6 +175,7 @@ def start(component: Component, stated: list[Eq], initial: list[Eq]) -> None:
         reference = side.reference if isinstance(side, Previous) else side
         if reference.owner is component._node:
             component.modify(**{reference.path: Start(values[side])})
+    return bool(values)
 
 
 def _jumps(side: Any) -> bool:
@@ -182,7 +215,10 @@ def connected_or_given(build: Any) -> tuple[frozenset[str], frozenset[str]]:
 def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
     reader = SectionReader(bound.frame)
     reader.at = bound.expression.at
-    yield from reader.pairs(_target(part, path), bound.value())
+    target, value = _target(part, path), bound.value()
+    for one in elements(value):
+        reader.need_type(type_of(elements(target)[0]) if np.size(target) else "", one)
+    yield from reader.pairs(target, value)
 
 
 def _target(part: Component, path: str) -> Any:

@@ -79,7 +79,7 @@ def read_source(path: Path) -> Source:
     except OSError as error:
         raise ModelicaError(f"{path}: cannot be read ({error.strerror})") from None
     except UnicodeDecodeError:
-        raise ModelicaError(f"{path.name}: not a text file in UTF-8") from None
+        raise ModelicaError(f"{path.name}: not a text file in UTF-8; save it as one") from None
 
 
 def unquoted(text: str) -> str:

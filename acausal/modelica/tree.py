@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +47,8 @@ class Tree:
         ]
         self.roots: dict[str, ClassNode | Prefix] = {}
         self._natives: dict[str, Any] = {}
+        self._searched: dict[str, int] = {}
+        """Name -> in how many folders of the path there is no package of that name."""
 
     def __deepcopy__(self, memo: Any) -> Tree:
         return self
@@ -89,7 +92,7 @@ class Tree:
         """A package at the top."""
         if name in self.roots:
             return self.roots[name]
-        for folder in self.path:
+        for folder in islice(self.path, self._searched.get(name, 0), None):
             names = (
                 [name, *sorted(p.name for p in folder.glob(f"{name} *"))] if folder.is_dir() else []
             )
@@ -102,6 +105,7 @@ class Tree:
                         if isinstance(self.roots[name], ClassNode):
                             return self.roots[name]
                         del self.roots[name]  # the file has other classes
+        self._searched[name] = len(self.path)
         if any(name == known.partition(".")[0] for lib in self.libraries for known in lib.packages):
             return Prefix(name)
         return self.roots.get(name)

@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.modeling import Component, Connector, Input, Output, Reference, Variable
+from acausal.modeling import Component, Connector, Input, Output, Reference, Variable, time
 from acausal.netlist import member
 
 
@@ -85,6 +85,26 @@ class BusMember(Record):
     def element(self, index: Sequence[int]) -> Any:
         """An element; each is a member of its own."""
         return self.bus.field(f"{self.name}[{','.join(map(str, index))}]")
+
+
+class FoundOnce(dict[Any, tuple[Any, Any]]):
+    """What is found by keys, each with what it was made of; a copy of a model finds it again."""
+
+    def __deepcopy__(self, memo: Any) -> FoundOnce:
+        return FoundOnce()
+
+    def of(self, key: Any, source: Any, make: Callable[[], Any]) -> Any:
+        """The value of a key, made once for one source."""
+        known = self.get(key)
+        if known is None or known[0] is not source:
+            known = self[key] = source, make()
+        return known[1]
+
+    def array(self, name: str, found: Any) -> Any:
+        """An array of variables, made once of the list that the component has."""
+        if not is_array(found):
+            return found
+        return self.of(name, found, lambda: as_array(found))
 
 
 class FunctionValue:
@@ -206,7 +226,8 @@ def of(value: Any, word: str) -> Any:
                 return build.made[word]
             if build is not None and word in build.entries and word not in vars(value):
                 return build.member(word)  # of a part that is not complete yet
-            return as_array(member(value, word))
+            found = member(value, word)
+            return build.kept.array(word, found) if build is not None else as_array(found)
         case Connector():
             return as_array(getattr(value, attribute_of(word))) if _has(value, word) else None
         case _ if is_dataclass(value) and not isinstance(value, type):
@@ -236,7 +257,26 @@ def type_of(value: Any) -> str:
         return "" if build is None else build.types.get(without_index(value.path), "")
     if isinstance(value, sp.Expr) and (value.is_Add or value.is_Mul or value.is_Pow):
         return "Real"
+    if value is time:
+        return "Real"
     return "Integer" if isinstance(value, int) else "Real" if isinstance(value, float) else ""
+
+
+def is_real(value: Any) -> bool:
+    """Whether this is surely a Real and no Integer; a function of others may be either."""
+    if isinstance(value, float):
+        return not value.is_integer()
+    if not isinstance(value, sp.Expr):
+        return False
+    if value.is_Add or value.is_Mul:
+        return any(map(is_real, value.args))
+    if value.is_Pow:
+        return is_real(value.args[0]) or not (
+            value.args[1].is_Integer and value.args[1].is_positive
+        )
+    if value.is_Number:
+        return not float(value).is_integer()
+    return (value is time or isinstance(value, Reference)) and type_of(value) == "Real"
 
 
 def without_index(path: str) -> str:

@@ -6,10 +6,11 @@ from dataclasses import is_dataclass
 from typing import Any
 
 import numpy as np
+import sympy as sp
 
 from acausal.modelica import statements
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.library_parts import ModifierValues, grouped
+from acausal.modelica.library_parts import ModifierValues, grouped, nominal_of
 from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Bound, Modification
 from acausal.modelica.operators import Frame
@@ -58,7 +59,7 @@ def declare(
         return
     if found.predefined == "String":
         raise entry.wrong("a text that changes with time is not supported")
-    shape = tuple(_sizes(build, entry, mod.value, sizes))
+    shape = tuple(sizes_of(entry, mod.value, sizes))
     if 0 in shape:
         build.made[name] = np.empty(shape, dtype=object)
         return
@@ -67,6 +68,9 @@ def declare(
     declared = _variable(build, name, entry, found, mod, shape, _text(stated.pop("unit", "")))
     build.assign(name, entry, declared)
     start = {k: _value(v) for k, v in stated.items() if k not in ("min", "max")}
+    if "nominal" in start:
+        start["nominal"] = nominal_of(start["nominal"])
+    _need_start(found, stated.get("start"), start.get("start"), shape)
     if isinstance(start.get("start"), np.ndarray):
         start["start"] = each(lambda v: int(v) if isinstance(v, bool) else v, start["start"])
     if found.predefined != "Real" and not isinstance(declared, Discrete):
@@ -85,6 +89,19 @@ def declare(
     if mod.value is not None:
         owner = mod.value.frame.build or build
         owner.bindings.append((build.component, name, mod.value))
+
+
+def _need_start(found: Type, stated: Any, start: Any, shape: tuple[int, ...]) -> None:
+    """Refuse a start of another type or size than its variable has."""
+    if not isinstance(stated, Bound):
+        return
+    if isinstance(start, np.ndarray) and start.shape != shape:
+        sizes = " and ".join(str(list(s)) for s in (shape, start.shape))
+        raise stated.wrong(f"the variable and its start have the sizes {sizes}")
+    if found.predefined in ("Real", "Integer") and any(
+        isinstance(v, bool) for v in elements(start)
+    ):
+        raise stated.wrong(f"the start of this {found.predefined} is a number, not a Boolean")
 
 
 def _record(found: Type, mod: Modification) -> Any:
@@ -122,6 +139,8 @@ def _variable(
     ) and not (fed and causality == "output")
     if causality == "input" and mod.value is None:
         return Input(kind=kind, **given)
+    if causality == "input":
+        build.bound_inputs.add(name)
     if causality == "output":
         return DiscreteOutput(kind=kind, **given) if jumps else Output(**given)
     return Discrete(kind=kind, **given) if jumps else Variable(**given)
@@ -149,7 +168,7 @@ def _fixed(
             raise value.wrong(
                 f"'{name}' is found at the start (fixed=false); give its start, not its value"
             )
-        shape = tuple(_sizes(build, entry, None, sizes)) or None
+        shape = tuple(sizes_of(entry, None, sizes)) or None
         unit = _text(stated.get("unit", ""))
         build.assign(name, entry, InitialParameter(unit=unit, shape=shape, doc=declared.comment))
         if "start" in stated:
@@ -160,9 +179,11 @@ def _fixed(
     given = given if value is None else value.value()
     if given is None and (constant or not real):
         raise entry.wrong(f"'{name}' has no value; give one")
+    if constant and any(isinstance(v, sp.Basic) and v.free_symbols for v in elements(given)):
+        raise entry.wrong(f"'{name}' is a constant, which depends on constants only")
     if given is not None:
         given = _checked(build, name, entry, found, given, value)
-    known = _sizes(build, entry, given, sizes)
+    known = sizes_of(entry, given, sizes)
     if known and given is not None:
         given = _spread(entry, name, given, known, value)
     elif isinstance(given, np.ndarray):
@@ -214,7 +235,7 @@ def _checked(
     return one(given)
 
 
-def _sizes(build: Any, entry: Entry, value: Any, sizes: list[tuple[Any, Frame]]) -> list[int]:
+def sizes_of(entry: Entry, value: Any, sizes: list[tuple[Any, Frame]]) -> list[int]:
     """The sizes of an array; those that are open follow from its value."""
     found: list[int] = []
     for place, (expression, frame) in enumerate(sizes):

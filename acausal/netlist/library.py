@@ -9,6 +9,7 @@ name where the library lists one. These attributes of the module are read:
   such as ``{"Modelica.Blocks": "blocks"}``. That module is imported when a file names one of them.
 - ``NOT_COVERED``: packages of Modelica, each with the names of classes that are not there, such as
   ``{"Modelica.Blocks.Math": "Exponentiation"}``.
+- ``RENAMED``: earlier names of classes of Modelica, each with the present one.
 - ``ALSO_CALLED``: what else classes are called, words by the Python path below the module, such as
   ``{"blocks.Hysteresis": "thermostat"}``, for `acausal.find`.
 - ``RECORDS``: constants and records by the last word of their name, or the last two, such as ``{"Water": Water()}``.
@@ -57,7 +58,8 @@ class Library:
 
     def find(self, name: str) -> Any:
         """The class of a full name, or None."""
-        names = self._listed
+        renamed: dict[str, str] = getattr(self.module, "RENAMED", {})
+        name, names = renamed.get(name, name), self._listed
         for package, place in self._packages.items():
             if name.startswith(f"{package}."):
                 names = self._names(place)

@@ -9,7 +9,7 @@ import numpy as np
 
 import acausal as ac
 
-_HEAD = re.compile(r"^\s*(?:double|float)\s+(\w+)\s*\(\s*(\d+)\s*,\s*(\d+)\s*\)", re.MULTILINE)
+_HEAD = re.compile(r"^\s*(?:double|float)\s+(\w+)\s*\(\s*(\d+)[\s,]+(\d+)\s*\)", re.MULTILINE)
 
 
 def from_file(path: str, name: str, delimiter: str, n_header: int) -> np.ndarray:

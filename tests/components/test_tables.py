@@ -96,7 +96,7 @@ def test_a_jump_at_an_end_has_no_line_to_continue() -> None:
 
 def test_files_are_read(tmp_path: Path) -> None:
     rows = [[0, 1, 2], [4, 5, 6]]
-    text = "#1\n# comment\nfloat other(1,2)\n0 0\ndouble a(2,3) # more\n0,1 2 # values\n4\t5 6\n"
+    text = "#1\n# comment\nfloat other(1, 2)\n0 0\ndouble a(2 3) # more\n0,1 2 # values\n4\t5 6\n"
     (tmp_path / "table.txt").write_text("\ufeff" + text, encoding="utf-8")
     (tmp_path / "table.csv").write_text("t;a;b\n0;1;2\n4;5;6\n", encoding="utf-8")
     savemat(tmp_path / "table.mat", {"a": rows})

@@ -138,6 +138,8 @@ def sort_of(error: Exception, places: Sequence[str]) -> tuple[str, str]:
         where = next((f for f in reversed(frames) if str(ROOT) in f.filename), frames[-1])
         return "traceback", f"{message} [{where.filename}:{where.lineno}]"
     text = str(error)
+    if isinstance(error, ac.ModelicaError):  # its place is shown below the sentence
+        text = text.partition("\n    ")[0]
     if "\n" in text or len(text) > LENGTH or " " not in text:
         return "unclear", message
     if not any(place in text for place in places):

@@ -14,7 +14,7 @@ from typing import Any
 import jax
 import pytest
 
-from . import calls, interface, models, netlists
+from . import calls, interface, models, netlists, texts
 from .outcome import GOOD, Mutant, Outcome, outcome, table
 
 MAKERS: dict[str, tuple[Callable[[int, Path], Mutant], int]] = {
@@ -22,6 +22,7 @@ MAKERS: dict[str, tuple[Callable[[int, Path], Mutant], int]] = {
     "models": (lambda seed, folder: models.mutant(seed), 350),
     "calls": (calls.mutant, len(calls.ALL)),
     "interface": (interface.mutant, 6000),
+    "texts": (texts.mutant, 1000),
 }
 """By kind: what makes the mutant of a seed, and how many there are. The slow tests try one in twelve of them."""
 
@@ -56,5 +57,5 @@ def test_mutants_are_various(tmp_path: Path) -> None:
     made = [make(seed, tmp_path) for make, n in MAKERS.values() for seed in range(n)]
     assert len(made) >= 1000
     assert len({m.kind for m in made}) > 80
-    assert len({m.domain for m in made}) == 12
+    assert len({m.domain for m in made}) == 13
     assert len({(m.domain, m.kind, m.detail) for m in made}) > 900

@@ -142,6 +142,48 @@ def test_files_lie_in_the_folder_of_their_package(tmp_path: Path) -> None:
     assert model.t is not None
 
 
+def test_members_of_arrays_inputs_with_a_value_and_names_of_instances(tmp_path: Path) -> None:
+    file = tmp_path / "members.mo"
+    file.write_text("""
+        package P
+          connector In = input Real; connector Out = output Real;
+          block Store
+            parameter Boolean use = true; parameter Real least = 0.5; parameter String name = getInstanceName();
+            In u = level if use;
+            Real level(nominal = least), twice = 2*level;
+          equation
+            if not use then
+              level = 1;
+            end if;
+          end Store;
+          record R Real x[2]; end R;
+          record Named parameter String name = "a"; end Named;
+          model M
+            parameter Named names[:] = {Named(), Named("b")};
+            Store s, t(use = false);
+            Out y = 3*time;
+            discrete Real last(start = 7, fixed = true);
+            R r[3](x = {{1, 2}, {3, 4}, {5, 6}});
+            Real second[3] = r.x[2], n = if names[2].name == "b" and s.name == "M.s" then 1 else 0;
+          equation
+            connect(y, s.u);
+            when terminal() then
+              last = y;
+            end when;
+          end M;
+        end P;""")
+    with pytest.warns(UserWarning, match="line 24, column 18: the end of a simulation is no event"):
+        model = ac.load(file, "P.M")
+    run = ac.simulate(ac.compile(model), 1.0, dt=0.5)
+    assert [float(run[n][-1]) for n in ("s.twice", "t.twice", "second[3]", "n", "last")] == [
+        6,
+        2,
+        6,
+        1,
+        7,
+    ]
+
+
 def test_a_unit_that_nobody_knows_is_a_warning(tmp_path: Path) -> None:
     file = tmp_path / "costs.mo"
     file.write_text(

@@ -11,7 +11,11 @@ import pytest
 import acausal as ac
 from acausal.command import main
 from acausal.components import translational as tl
+from acausal.modelica import statements
+from acausal.modelica.evaluate import Evaluator
 from acausal.modeling import Reference
+from benchmarks import import_
+from benchmarks.chain import Chain
 from tests.export.test_modelica import CASES, Vectors
 
 TEXTBOOK = Path(__file__).with_name("Textbook.mo")
@@ -127,6 +131,16 @@ def test_the_last_model_is_meant_or_one_by_its_name(tmp_path: Path) -> None:
         ac.load(file, 3)  # type: ignore[arg-type]
 
 
+def test_earlier_names_of_the_standard_library(tmp_path: Path) -> None:
+    file = tmp_path / "old.mo"
+    file.write_text("""model Old
+      Modelica.Blocks.Sources.Clock clock;
+      Modelica.Blocks.Sources.Sine sine(freqHz = 0.25);
+      Real y = clock.y + sine.y;
+    end Old;""")
+    assert float(ac.simulate(ac.compile(ac.load(file)), 1.0, dt=0.5)["y"][-1]) == pytest.approx(2)
+
+
 def test_the_experiment_is_kept() -> None:
     assert ac.load(TEXTBOOK, "RC").document == {"stop_time": 3}
 
@@ -150,6 +164,52 @@ def test_a_copy_reads_its_own_equations() -> None:
 def test_a_part_of_the_text_is_replaced_by_one_of_the_library() -> None:
     model = ac.load(TEXTBOOK, "Chain2").replace("link[2]", tl.SpringDamper(c=20.0, d=0.5))
     assert ac.compile(model).states == ("mass[1].s", "mass[1].v", "mass[2].s", "mass[2].v")
+
+
+@pytest.mark.parametrize("text", import_.FILES)
+def test_a_chain_of_text_is_that_of_python(tmp_path: Path, text: str) -> None:
+    file = tmp_path / "Text.mo"
+    file.write_text("\n".join(import_.FILES[text](6)))
+    systems = [ac.compile(model) for model in (ac.load(file), Chain(3))]
+    x = np.linspace(0.2, 0.5, 6)
+    rates = [np.asarray(s.vector_field(0.0, x, None, s.parameters())) for s in systems]
+    np.testing.assert_allclose(*rates, rtol=1e-14)
+
+
+def test_what_an_array_of_parts_is_given_is_evaluated_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    evaluated: list[Any] = []
+    monkeypatch.setattr(
+        Evaluator,
+        "comprehension",
+        lambda self, e, whole=Evaluator.comprehension: (evaluated.append(e), whole(self, e))[1],
+    )
+    file = tmp_path / "Text.mo"
+    file.write_text("\n".join(import_.FILES["arrays"](20)))
+    assert len(ac.load(file).mass) == 10
+    assert len(evaluated) == len({id(e) for e in evaluated}) == 3
+
+
+def test_parts_that_are_alike_are_read_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[str] = []
+    whole = statements.equations
+    monkeypatch.setattr(
+        statements, "equations", lambda b: (read.append(type(b.component).__name__), whole(b))[1]
+    )
+    file = tmp_path / "Text.mo"
+    file.write_text("\n".join(import_.FILES["own"](20)))
+    ac.load(file)
+    assert {"Chain", "Mass", "SpringDamper"} <= {*read}
+    assert len(read) < 8  # of 21 parts and the model
+    file.write_text("""package P
+      model A parameter Real k = 1; Real x = k; equation assert(k > 0, "k is small"); end A;
+      model M A a, b(k = -1); end M;
+    end P;""")
+    with pytest.raises(ac.ModelicaError, match="violated: k is small"):
+        ac.load(file)
 
 
 @pytest.mark.parametrize("selfcontained", [True, False])

@@ -21,6 +21,9 @@ WRONG = {
     "model M Real time; end M;": "'time' is the time",
     "model M extends M; end M;": "'M' extends itself",
     "model M M m; end M;": "does 'M' contain itself",
+    "model A end A; model C replaceable model K = A; K k; end C; model M extends C(redeclare model K = K); end M;":
+    "'K' extends itself",
+    f"model M {M}Mass m[3]; Real x[m]; end M;": "a size is a whole number, not ",
     "function f input Real x; output Real y=x; end f; model M f g; end M;": "a function, not a model",
     # modifiers
     f"model M {M}Mass m(mm=1); end M;": "Mass 'm' has no 'mm'; did you mean 'm'",

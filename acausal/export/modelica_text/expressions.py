@@ -13,7 +13,18 @@ from sympy.printing.str import StrPrinter
 from acausal.errors import ModelError
 from acausal.export.modelica_text.discrete import cases, is_discrete, is_whole
 from acausal.export.modelica_text.spelling import number
-from acausal.modeling import HALF, INITIAL, Eq, Floored, Reinit, Tick, When
+from acausal.modeling import (
+    HALF,
+    INITIAL,
+    Eq,
+    Floored,
+    Parameter,
+    Reference,
+    Reinit,
+    Tick,
+    When,
+    time,
+)
 
 FUNCTIONS = {
     "Abs": "abs", "acos": "acos", "asin": "asin", "atan": "atan", "atan2": "atan2", "cos": "cos", "cosh": "cosh",
@@ -155,6 +166,9 @@ class Printer(StrPrinter):
         if name is None:
             return self.emptyPrinter(expr)
         if name == "der" and not expr.args[0].is_Symbol:
+            found = _by_chain_rule(expr.args[0], expr.func)
+            if found is not None:
+                return f"({self.print(found)})"
             return f"der({self.names.variable(self.print(expr.args[0]))})"
         return f"{name}({', '.join(self.print(a) for a in expr.args)})"
 
@@ -303,3 +317,18 @@ def _arrays(texts: Mapping[str, str]) -> dict[str, str]:
         else:
             found[name] = text
     return found
+
+
+def _by_chain_rule(expr: sp.Expr, der: Any) -> sp.Expr | None:
+    """The derivative of an expression by those of its variables, which stay states; None where it has no formula."""
+    if expr.atoms(sp.Piecewise, sp.core.function.AppliedUndef):
+        return None
+    varying = [
+        s
+        for s in sorted(expr.free_symbols, key=str)
+        if not (isinstance(s, Reference) and isinstance(s.declaration, Parameter))
+    ]
+    partial = {s: sp.diff(expr, s) for s in varying}
+    if any(p.has(sp.Derivative, sp.Subs, sp.DiracDelta) for p in partial.values()):
+        return None
+    return sp.Add(*(p * (1 if s is time else der(s)) for s, p in partial.items()))

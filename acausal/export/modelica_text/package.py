@@ -186,7 +186,8 @@ class ClassWriter:
                 f"export.modelica: {self.node.label} refers to '{reference.path}' of another component; "
                 "give it by a parameter or a connector"
             )
-        held = self.package.names(reference.owner)[1]
+        of_library = route and self.package.standard(self.component, route[0])
+        held = {} if of_library else self.package.names(reference.owner)[1]
         name, bracket, index = reference.path.partition("[")
         local = held.get(name, name) + bracket + index
         return dotted([*self.package.way(self.node, route), *local.split(".")])

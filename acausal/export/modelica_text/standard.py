@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from acausal.export.modelica_text.spelling import array, number
-from acausal.modeling import Component, Option
+from acausal.modeling import Component, Option, Variable
 from acausal.netlist import BARE_CONSTANTS, Library, Writer, installed
 
 TYPES: dict[str, str] = {
@@ -40,7 +40,8 @@ def standard_part(model: Component, name: str) -> tuple[str, Flat] | None:
         return None
     entry = Writer(installed()).part(model, name)
     flat = _flat(entry.get("with", {}), part)
-    return entry["class"], {path: _with_constants(text, model) for path, text in flat.items()}
+    texts = {path: _without_names_of_records(text, model) for path, text in flat.items()}
+    return entry["class"], {path: _with_constants(text, model) for path, text in texts.items()}
 
 
 def standard_connector(kind: type, name: str) -> str | None:
@@ -53,6 +54,12 @@ def standard_connector(kind: type, name: str) -> str | None:
 
 def _names(library: Library, kind: type) -> list[str]:
     return [n for n in library.modelica_names if library.find(n) is kind]
+
+
+def _without_names_of_records(text: str, model: Component) -> str:
+    """A record itself in the place of its name, as the text declares none."""
+    value = model._node.constants.get(text)
+    return next((n for b in installed() if (n := b.constant_name(value))), text)
 
 
 def _with_constants(text: str, model: Component) -> str:
@@ -71,6 +78,8 @@ def _flat(given: Mapping[str, Any], part: Component | None) -> Flat:
         declared = part._node.declaration(key) if part is not None else None
         if key in ("unit", "displayUnit", "quantity"):
             continue
+        if isinstance(declared, Variable) and not isinstance(value, Mapping):
+            continue  # an equation of the model
         if isinstance(value, Mapping) and "=" in value:
             found[key,] = _text(value["="], declared)
         elif isinstance(value, Mapping):
