@@ -25,7 +25,7 @@ from acausal.flattening.silent import Silent
 from acausal.flattening.stated import Stated
 from acausal.flattening.template import Integers
 from acausal.flattening.values import ParameterValues, module_values, parameter_values
-from acausal.modeling import PYTHON, Budget, Component, Discrete, Input, spending, undecided
+from acausal.modeling import PYTHON, Budget, Component, Discrete, Input, spending
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def flatten(model: Component, budget: Budget | None = None, *, watch: bool = Fal
         ConnectionError: for connections that cannot be made.
     """
     own = model._node.budget or PYTHON
-    with spending(own if budget is None else budget), undecided():
+    with spending(own if budget is None else budget):
         return _flat(model, watch)
 
 

@@ -112,4 +112,3 @@ from acausal.modeling.symbols import (
     references as references,
     time as time,
 )
-from acausal.modeling.truth import undecided as undecided

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import count
-from typing import Any, NoReturn, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import sympy as sp
@@ -59,12 +59,12 @@ class Compared(sp.Symbol):
         return False
 
     def __eq__(self, other: object) -> Any:
-        if other is self or not isinstance(other, COMPARED_WITH) or is_within():
+        if other is self or not isinstance(other, COMPARED_WITH) or _is_within():
             return super().__eq__(other)
         return self._equals(other)
 
     def __ne__(self, other: object) -> Any:
-        if other is self or not isinstance(other, COMPARED_WITH) or is_within():
+        if other is self or not isinstance(other, COMPARED_WITH) or _is_within():
             return super().__ne__(other)
         return ~self._equals(other)
 
@@ -73,36 +73,26 @@ class Compared(sp.Symbol):
             other._is_whole() if isinstance(other, Compared) else not isinstance(other, sp.Expr)
         )
         if not (self._is_whole() and is_whole):
-            refuse_equality(self, other)
+            raise DeclarationError(
+                f"{self} == {other}: an equation is ac.Eq(left, right), and in a condition a real number, which "
+                "has a value at instants only, is compared by <, <=, > or >=. Whole numbers are variables of "
+                "kind='int' or 'bool'; give one to an expression."
+            )
         value = other if isinstance(other, sp.Expr) else number_or_expression(other, "a comparison")
         return sp.Lt(sp.Abs(self - value), HALF)
 
     __hash__ = sp.Symbol.__hash__
 
     def __bool__(self) -> bool:
-        if not is_within():
-            refuse_truth(self)
-        return True
+        if _is_within():
+            return True
+        raise DeclarationError(
+            f"Python asks whether {self} is true, but its value is not known yet: "
+            "use &, | and ~ in place of and, or and not, and ac.where in place of if."
+        )
 
 
-def refuse_equality(left: Any, right: Any) -> NoReturn:
-    """Refuse a comparison by ``==`` or ``!=`` that is not one of whole numbers."""
-    raise DeclarationError(
-        f"{left} == {right}: an equation is ac.Eq(left, right), and in a condition a real number, which "
-        "has a value at instants only, is compared by <, <=, > or >=. Whole numbers are variables of "
-        "kind='int' or 'bool'; give one to an expression."
-    )
-
-
-def refuse_truth(expression: Any) -> NoReturn:
-    """Refuse an expression in the place of a truth value that Python needs now."""
-    raise DeclarationError(
-        f"Python asks whether {expression} is true, but its value is not known yet: "
-        "use &, | and ~ in place of and, or and not, and ac.where in place of if."
-    )
-
-
-def is_within() -> bool:
+def _is_within() -> bool:
     """Whether the function that called this was called by sympy, NumPy or this package."""
     caller = sys._getframe(2).f_globals.get("__name__", "")
     return caller.partition(".")[0] in WITHIN
