@@ -127,7 +127,7 @@ def test_rumoca_refuses_the_wrong_classes(rumoca: Any) -> None:
 
 def test_pymoca_finds_the_same_classes() -> None:
     """Classes within classes, their kinds, and their components with type, dimensions and prefixes."""
-    tree = pytest.importorskip("pymoca.parser", reason="pymoca, which compares, is not installed")
+    tree = pytest.importorskip("pymoca.parser", reason="pymoca is not installed")
     whole = tree.parse(FILE.read_text())
     _, (own,) = parse(read_source(FILE))
     assert _of_pymoca(whole.classes[own.name]) == _of_text(own)

@@ -21,7 +21,7 @@ REASONS = (
     r"the compiler has no (thread sanitizer|sanitizers)",
     r"the thread sanitizer does not run on this kernel",
     # packages that requirements.lock leaves out
-    r"(asammdf|distributed|pyarrow|ziglang) is not installed",
+    r"(asammdf|distributed|pyarrow|pymoca|ziglang) is not installed",
     # nothing to test
     r"a saw tooth has one",
     r"an address is set",
