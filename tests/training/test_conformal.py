@@ -69,7 +69,7 @@ def test_a_band_is_the_quantile_of_independent_errors():
     halves = {"a": noisy.between(0, 1.0), "b": noisy.between(1.01, 2.0)}
     both = repr(fit.conformal(halves, 0.9, x0="model"))
     assert "records like the 2 that they were calibrated on: 'a', 'b'" in both
-    with pytest.raises(ac.DataError, match=r"^level=1 is not a share of the samples"):
+    with pytest.raises(ac.DataError, match=r"^level=1\.0 is not a share of the samples"):
         fit.conformal(noisy, 1.0)
     with pytest.raises(ac.DataError, match=r"too few for level=0\.99: take a longer one"):
         fit.conformal(noisy.between(0, 0.5), 0.99)
