@@ -163,16 +163,15 @@ def estimate(
     if isinstance(noise, Mapping):
         of = "a state, nor a parameter to estimate"
         chosen = numbers_by_name(noise, names, "noise", of)
-        given = jnp.stack([jnp.asarray(chosen.get(n, 0.0), float) for n in names])
-        q = jnp.zeros_like(walk).at[: len(names)].set(given)
+        walks = jnp.stack([jnp.asarray(chosen.get(n, 0.0), float) for n in names])
+        q = jnp.zeros_like(walk).at[: len(names)].set(walks)
     elif noise is None or noise == "fit":
         q = _best_level(lambda level: filtered(level * walk, r)) * walk
         if noise == "fit":
             given = sensors if isinstance(sensors, Mapping) else {}
             free = np.array([n not in given for n in known])
-            forward = (
-                system.events is not None
-            )  # their loops of steps have no derivatives in reverse mode here
+            # steps that end at events, as they are made here, have derivatives in forward mode alone
+            forward = system.events is not None
             q, r = _fitted(lambda q, r: _likelihood(filtered(q, r)), q, r, free, forward=forward)
     else:
         raise DataError(f"noise={shown(noise)}: give 'fit', or numbers by name of a state.")
@@ -195,7 +194,8 @@ def filter_for(system: System, method: str, what: str) -> Filter | MovingHorizon
         raise DataError(f"method={shown(method)}; give the name of a method, such as 'ekf'.")
     if method not in METHODS:
         raise DataError(f"No method {shown(method)}: {nearest(method, METHODS)}")
-    what = f"{what}, method='mhe'," if method == "mhe" else what
+    if method == "mhe":
+        check_model(system, f"{what}, method='mhe',", events=False)
     check_model(system, what, events=what == "estimate")
     return {
         "ekf": EKF, "ukf": Linearized(by_points), "enkf": EnsembleFilter(), "mhe": MovingHorizon(),

@@ -65,9 +65,8 @@ class Due(NamedTuple):
 
 def due(events: Events, now: Values) -> Due:
     """When conditions change whose time is known: their numbers grow evenly with time."""
-    t = jnp.asarray(
-        now.t
-    )  # from here on: seconds of a calendar leave few digits for the rate from zero on
+    # from now on, not from zero on: seconds of a calendar would leave few digits for the rate
+    t = jnp.asarray(now.t)
     here, later = (guards(events, now._replace(t=at), timed=True) for at in (t, t + 1))
     rate = jnp.where(events.timed, later - here, 1.0)
     # Else a number does not change, or is so large that rounding hides it.

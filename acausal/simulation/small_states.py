@@ -35,7 +35,7 @@ def with_small_states(simulated: Simulated, n_states: int) -> Solution:
     solution = simulated(atol)
     for _ in range(AGAIN):
         finer = _finer(solution)
-        if finer is None or (finer > 0.1 * atol).all():
+        if (finer > 0.1 * atol).all():
             break
         small = [n for n, f, a in zip(solution.system.states, finer, atol, strict=True) if f < a]
         try:
@@ -50,13 +50,22 @@ def with_small_states(simulated: Simulated, n_states: int) -> Solution:
     return solution
 
 
-def _finer(solution: Solution) -> Float[np.ndarray, " n_states"] | None:
-    """The tolerances of the states of a result, relative to the largest one of their unit; None while JAX traces."""
-    x = known(solution.x)
+def _finer(solution: Solution) -> Float[np.ndarray, " n_states"]:
+    """The tolerances of the states of a result, relative to the largest one of their unit; the usual in a trace."""
+    x, states = known(solution.x), solution.system.states
+    usual = np.full(len(states), ATOL)
     if x is None or not x.size:
-        return None
-    rows = np.abs(np.asarray(x, float)).reshape(-1, x.shape[-1])
-    largest = np.nan_to_num(rows, posinf=np.inf).max(axis=0)
-    units = np.array([solution.unit(name) for name in solution.system.states])
-    size = np.array([largest[units == unit].max() for unit in units])
-    return ATOL * np.where((size > NOISE) & (size < SMALL), size, 1.0)
+        return usual
+    rows = np.asarray(x, float).reshape(-1, len(states))
+    ends = (
+        np.fmax.reduce(rows),
+        -np.fmin.reduce(rows),
+    )  # without NaN, and without a copy of all rows
+    largest = np.nan_to_num(np.maximum(*ends), posinf=np.inf)
+    if (largest >= SMALL).all():
+        return usual
+    _, unit = np.unique([solution.unit(name) for name in states], return_inverse=True)
+    of_unit = np.zeros(len(states))
+    np.maximum.at(of_unit, unit, largest)
+    size = of_unit[unit]
+    return np.where((size > NOISE) & (size < SMALL), size * ATOL, ATOL)
