@@ -63,8 +63,8 @@ LEVELS = np.logspace(-4, 2, 9)
 FAINT = 1e-3
 """The noise of a sensor whose samples show none, relative to the standard deviation of its signal."""
 
-RUN_AWAY = 1e6
-"""A state that is larger than this, in nominal values, tells nothing of its size."""
+RUN_AWAY = 1e3
+"""Where the model without corrections shows so many times more than what is measured, it is unstable."""
 
 FAR = 7.0
 """Noise is fitted within so many powers of e around where that begins."""
@@ -144,7 +144,7 @@ def estimate(
     drift = numbers_by_name(parameters, system.layout.names, "parameters", kind)
     names = (*system.states, *drift)
     path, measured, first = _lay_out(system, data, known, tuple(drift), x0, params, dt, solver)
-    size = _sizes(path, first)
+    size = _sizes(path, first, measured)
     spread = _spread(system, data, states, known, size)
     start = belief_at(first, spread, path.model.params, drift)
     key = as_key(seed)
@@ -312,18 +312,30 @@ def _lay_out(
     return path, measured, at(model.packed)
 
 
-def _sizes(path: AlongRecord, start: Values) -> Float[Array, " n_states"]:
-    """Half of the range that each state passes without corrections; its nominal value where that tells nothing."""
-    x, nominal = _open_loop(path, start), jnp.asarray(path.model.system.nominal)
+def _sizes(path: AlongRecord, start: Values, measured: Measured) -> Float[Array, " n_states"]:
+    """Half of the range that each state passes without corrections; its nominal value where that tells nothing.
+
+    Of a model that runs away it is the part that the sensors show of their range.
+    """
+    (x, shown), nominal = _open_loop(path, start), jnp.asarray(path.model.system.nominal)
     half = (jnp.max(x, axis=0) - jnp.min(x, axis=0)) / 2
-    good = jnp.isfinite(half) & (half > 0) & (half < RUN_AWAY * nominal)
+    seen = jnp.max(jnp.abs(measured.y), axis=0)
+    far = jnp.max(jnp.where(seen > 0, jnp.max(jnp.abs(shown), axis=0) / seen, 0.0))
+    half = half / jnp.where(far > RUN_AWAY, far, 1.0)
+    good = jnp.isfinite(half) & (half > 0)
     guesses = slice(path.model.system.reduced.n_independent, None)  # of loops: they follow
     return jax.lax.stop_gradient(jnp.where(good, half, nominal).at[guesses].set(0.0))
 
 
 @compiled
-def _open_loop(path: AlongRecord, start: Values) -> Float[Array, "n n_states"]:
-    return path.model.integrate(start, path.steps).x
+def _open_loop(path: AlongRecord, start: Values) -> tuple[Array, Array]:
+    """States (n - 1, n_states) and what sensors would show, without corrections, from the first row on."""
+    model, x = path.model, path.model.integrate(start, path.steps).x
+
+    def shown(t: Array, x: Array, u: Array) -> Array:
+        return model.system.read(model.sensors, Values(t, x, u, start.packed, start.d))
+
+    return x, jax.vmap(shown)(path.t[:-1], x, path.u[:-1])
 
 
 def _spread(

@@ -19,6 +19,7 @@ from jaxtyping import Float
 import acausal.simulation as simulation
 from acausal._jax import check_time, is_number, is_real
 from acausal.control.goals import Goals, Limits, Weights
+from acausal.control.sizes import Sizes, sizes
 from acausal.control.transcription import METHODS, NonlinearProgram, program
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, need_compiled, need_whole, shown, user_level
@@ -128,7 +129,9 @@ def mpc(
     given = tuple(n for n in system.inputs if n not in effort)
     order = [(*goals.decided, *given).index(name) for name in system.inputs]
     model = casadi(system, params, outputs=goals.observed)
-    solver = program(model, goals, order, system.nominal, float(dt), steps, method, max_iterations)
+    solver = program(
+        model, goals, order, len(system.states), float(dt), steps, method, max_iterations
+    )
     return MPC(system, float(dt), steps, goals, given, solver)
 
 
@@ -156,9 +159,11 @@ class MPC:
         self.reset()
 
     def reset(self) -> None:
-        """Forget the last plan: the next one starts where the state stays as it is."""
+        """Forget the last plan, and what was typical: the next one starts where the state stays as it is."""
         self._last: Float[np.ndarray, " n"] | None = None
         self._sent = np.zeros(len(self.goals.decided))
+        self._seen: Sizes | None = None
+        self._size: Sizes | None = None
 
     def step(
         self,
@@ -192,18 +197,23 @@ class MPC:
         sent = self._sent
         if before is not None:
             sent = self._courses("before", before, goals.decided, times[:1], 0.0)[:, 0]
-        given = np.concatenate([state, [t], sent, goal.ravel("F"), others.ravel("F")])
         problem, last = self._program, self._last
-        start = problem.start(state) if last is None else problem.shifted(last)
+        now = sizes(problem.linearized, goals, state, t, goal, others, self.dt)
+        self._seen = now.with_earlier(self._seen)
+        size, before_that = self._seen.filled(self.system.nominal), self._size
+        given = np.concatenate([state, [t], sent, goal.ravel("F"), others.ravel("F"), size.numbers])
+        start = problem.start(state, size)
+        if last is not None and before_that is not None:
+            start = problem.shifted(last, before_that, size)
         began = time.perf_counter()
-        found = problem.solve(x0=start, p=given, **problem.bounds)
+        found = problem.solve(x0=start, p=given, **problem.bounds(size))
         seconds = time.perf_counter() - began
         stats = problem.solve.stats()
         solved, status = bool(stats["success"]), str(stats["return_status"]).replace("_", " ")
         best = np.asarray(found["x"]).ravel()
         best = best if np.isfinite(best).all() else start
         u, ends, seen = (np.asarray(part) for part in problem.read(best, given))
-        self._last, self._sent = best if solved else None, u[:, 0]
+        self._last, self._size, self._sent = best if solved else None, size, u[:, 0]
         if not solved:
             warnings.warn(
                 f"The controller found no optimum at t = {t:g} s ({status}): check limits and weights, or take a "
@@ -215,7 +225,7 @@ class MPC:
             dict(zip(goals.decided, u, strict=True)),
             dict(zip(self.system.states, ends, strict=True)),
             dict(zip(goals.observed, seen, strict=True)),
-            float(found["f"]),
+            float(found["f"]) * float(size.cost),
             solved,
             status,
             seconds,

@@ -10,12 +10,14 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.control.goals import Goals
+from acausal.control.sizes import Sizes
 
 DEGREE = 3
 """Collocation points of an interval: Radau's method of order five, for stiff models, too."""
 
 SOFT = 1e4
-"""Weight of what a variable leaves its limits by, relative to their distance: they are kept where they can be."""
+"""Weight of what a variable leaves its limits by, relative to their distance, where all else costs about one: limits
+are kept where they can be."""
 
 Rates = Callable[[Any, Any, Any], Any]
 
@@ -48,49 +50,83 @@ class NonlinearProgram:
     """A nonlinear program: its unknowns are the inputs, states and slacks of the horizon, each in its typical size.
 
     Attributes:
-        solve: IPOPT, with the program's bounds.
+        solve: IPOPT.
         read: from unknowns and parameters to inputs, states at the samples, and observed variables.
+        linearized: the model for `sizes`.
+        goals: of the controller.
         widths: how many unknowns of each kind there are for a sample.
-        start: unknowns where the state stays as it is.
+        steps: how many samples.
     """
 
     solve: Any
     read: Any
-    bounds: dict[str, Float[np.ndarray, " n"]]
+    linearized: Any
+    goals: Goals
     widths: tuple[int, ...]
-    start: Callable[[Float[np.ndarray, " n_states"]], Float[np.ndarray, " n"]]
+    steps: int
 
-    def shifted(self, unknowns: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """One sample later; the last sample is repeated."""
-        steps = len(unknowns) // sum(self.widths)
-        blocks = np.split(unknowns, np.cumsum(np.array(self.widths) * steps)[:-1])
-        rows = [b.reshape(steps, w) for b, w in zip(blocks, self.widths, strict=True)]
-        return np.concatenate([np.concatenate([r[1:], r[-1:]]).ravel() for r in rows])
+    def start(self, x: Float[np.ndarray, " n_states"], size: Sizes) -> Float[np.ndarray, " n"]:
+        """Unknowns where the state stays as it is."""
+        m, states, slacks = self.widths
+        low, high = self._inputs(size).T
+        inputs = np.tile(np.clip(np.zeros(m), low, high), self.steps)
+        still = np.tile(x / size.states, self.steps * states // len(x))
+        return np.concatenate([inputs, still, np.zeros(slacks * self.steps)])
+
+    def bounds(self, size: Sizes) -> dict[str, Float[np.ndarray, " n"]]:
+        """Lowest and highest values of the unknowns, and of what is constrained."""
+        goals, steps = self.goals, self.steps
+        _, states, slacks = self.widths
+        free, slack = np.full(states * steps, np.inf), np.zeros(slacks * steps)
+        low, high = (np.tile(side, steps) for side in self._inputs(size).T)
+        limits = [np.array(goals.ends(n)) / goals.size(n) for n in goals.bounded]
+        least, most = (np.tile(side, steps) for side in np.array(limits).reshape(-1, 2).T)
+        open_, zero = np.full(len(slack), np.inf), np.zeros(states * steps)
+        return {
+            "lbx": np.concatenate([low, -free, slack]),
+            "ubx": np.concatenate([high, free, slack + np.inf]),
+            "lbg": np.concatenate([zero, least, -open_]),
+            "ubg": np.concatenate([zero, open_, most]),
+        }
+
+    def _inputs(self, size: Sizes) -> Float[np.ndarray, "m 2"]:
+        return np.array([self.goals.ends(n) for n in self.goals.decided]) / size.inputs[:, None]
+
+    def shifted(
+        self, unknowns: Float[np.ndarray, " n"], before: Sizes, size: Sizes
+    ) -> Float[np.ndarray, " n"]:
+        """One sample later, in other sizes; the last sample is repeated."""
+        blocks = np.split(unknowns, np.cumsum(np.array(self.widths) * self.steps)[:-1])
+        rows = [b.reshape(self.steps, w) for b, w in zip(blocks, self.widths, strict=True)]
+        inputs, states, slack = (np.concatenate([r[1:], r[-1:]]) for r in rows)
+        inputs = inputs * before.inputs / size.inputs
+        ratio = np.tile(before.states / size.states, states.shape[1] // len(size.states))
+        return np.concatenate([inputs.ravel(), (states * ratio).ravel(), slack.ravel()])
 
 
 def program(
     model: Any,
     goals: Goals,
     order: list[int],
-    size: Float[np.ndarray, " n_states"],
+    n: int,
     dt: float,
     steps: int,
     method: str,
     iterations: int,
 ) -> NonlinearProgram:
-    """The program of a horizon; its parameters are state, time, last inputs, references and given inputs.
+    """The program of a horizon; its parameters are state, time, last inputs, references, given inputs and `Sizes`.
 
     Arguments:
         model: a CasADi function from ``t, x, u`` to ``der(x)`` and the observed variables.
         order: of the decided inputs, followed by the given ones, in ``u``.
-        size: typical magnitudes of the states.
+        n: how many states there are. dt: the sample time. steps: how many samples.
         method: one of `METHODS`. iterations: of IPOPT at most.
     """
     import casadi
 
     ca: Any = casadi
-    n, m, bounded = len(size), len(goals.decided), goals.bounded
-    unit = np.array([goals.size(name) for name in goals.decided])
+    m, bounded = len(goals.decided), goals.bounded
+    size, unit, weight = ca.MX.sym("size", n), ca.MX.sym("unit", m), ca.MX.sym("weight")
     defects, points = METHODS[method]
     u, x = ca.MX.sym("u", m, steps), ca.MX.sym("x", n, steps * points)
     slack = ca.MX.sym("slack", len(bounded), steps)
@@ -101,12 +137,12 @@ def program(
     def rates(t: Any, state: Any, held: Any) -> Any:
         return model(t, state, held)[0]
 
-    cost, equal, observed = SOFT * ca.sumsqr(slack), [], []
+    cost, equal, observed = 0.0, [], []
     state, last = x0, before
     for k in range(steps):
         own, t = u[:, k] * unit, t0 + k * dt
         held = ca.vertcat(own, given[:, k])[order]
-        inner = x[:, k * points : (k + 1) * points] * size
+        inner = x[:, k * points : (k + 1) * points] * ca.repmat(size, 1, points)
         equal += [d / size for d in defects(ca, rates, dt, t, state, inner, held)]
         state = inner[:, points - 1]
         observed.append(model(t + dt, state, held)[1])
@@ -118,53 +154,37 @@ def program(
         cost += _weighted(ca, [goals.change.get(n, 0.0) for n in goals.decided], own - last)
         last = own
     seen = ca.horzcat(*observed)
-    limited = seen[[goals.observed.index(name) for name in bounded], :]
-    room = slack * np.array([goals.size(name) for name in bounded]).reshape(-1, 1)
-    rows = ca.veccat(*equal, limited + room, limited - room)
-    unknowns, parameters = ca.veccat(u, x, slack), ca.veccat(x0, t0, before, goal, given)
+    rooms = np.array([goals.size(name) for name in bounded]).reshape(-1, 1)
+    limited = seen[[goals.observed.index(name) for name in bounded], :] / np.tile(rooms, steps)
+    rows = ca.veccat(*equal, limited + slack, limited - slack)
+    unknowns = ca.veccat(u, x, slack)
+    parameters = ca.veccat(x0, t0, before, goal, given, size, unit, weight)
     options = {
         "print_time": False,
         "error_on_fail": False,
         "ipopt": {"print_level": 0, "sb": "yes", "max_iter": iterations, "tol": 1e-7},
     }
-    nlp = {"x": unknowns, "f": cost, "g": rows, "p": parameters}
-    ends = ca.horzcat(x0, x[:, points - 1 :: points] * size)
-    low, high = _bounds(goals, unit, n * points, steps)
-    widths = m, n * points, len(bounded)
-    still = np.clip(np.zeros(m * steps), low["x"][: m * steps], high["x"][: m * steps])
-
-    def start(of: Float[np.ndarray, " n_states"]) -> Float[np.ndarray, " n"]:
-        states = np.tile(of / size, steps * points)
-        return np.concatenate([still, states, np.zeros(len(bounded) * steps)])
-
+    total = weight * cost + SOFT * ca.sumsqr(slack)
+    nlp = {"x": unknowns, "f": total, "g": rows, "p": parameters}
+    ends = ca.horzcat(x0, x[:, points - 1 :: points] * ca.repmat(size, 1, steps))
     return NonlinearProgram(
         ca.nlpsol("mpc", "ipopt", nlp, options),
-        ca.Function("plan", [unknowns, parameters], [u * unit, ends, seen]),
-        {"lbx": low["x"], "ubx": high["x"], "lbg": low["g"], "ubg": high["g"]},
-        widths,
-        start,
+        ca.Function("plan", [unknowns, parameters], [u * ca.repmat(unit, 1, steps), ends, seen]),
+        _linearized(ca, model, goals, order, n),
+        goals,
+        (m, n * points, len(bounded)),
+        steps,
     )
+
+
+def _linearized(ca: Any, model: Any, goals: Goals, order: list[int], n: int) -> Any:
+    t, x, m = ca.MX.sym("t"), ca.MX.sym("x", n), len(goals.decided)
+    own, given = ca.MX.sym("own", m), ca.MX.sym("given", len(order) - m)
+    rates, observed = model(t, x, ca.vertcat(own, given)[order])
+    seen = observed[: len(goals.track)]
+    by = [ca.jacobian(what, of) for what in (rates, seen) for of in (x, own)]
+    return ca.Function("linearized", [t, x, own, given], [rates, seen, *by])
 
 
 def _weighted(ca: Any, weights: Iterable[float], values: Any) -> Any:
     return ca.dot(ca.DM([float(w) for w in weights]), values**2)
-
-
-def _bounds(
-    goals: Goals, unit: Float[np.ndarray, " m"], states: int, steps: int
-) -> tuple[dict[str, Float[np.ndarray, " n"]], dict[str, Float[np.ndarray, " n"]]]:
-    """Lowest and highest values of the unknowns, and of what is constrained."""
-    free = np.full(states * steps, np.inf)
-    slack, zero = np.zeros(len(goals.bounded) * steps), np.zeros(states * steps)
-    inputs = np.array([goals.ends(n) for n in goals.decided]) / unit[:, None]
-    variables = np.array([goals.ends(n) for n in goals.bounded]).reshape(-1, 2)
-    low, high = (np.tile(side, steps) for side in inputs.T)
-    least, most = (np.tile(side, steps) for side in variables.T)
-    open_ = np.full(len(slack), np.inf)
-    return (
-        {"x": np.concatenate([low, -free, slack]), "g": np.concatenate([zero, least, -open_])},
-        {
-            "x": np.concatenate([high, free, slack + np.inf]),
-            "g": np.concatenate([zero, open_, most]),
-        },
-    )

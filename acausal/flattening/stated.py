@@ -188,7 +188,8 @@ class _Sorting:
         if target in self.updates:
             raise DeclarationError(
                 f"{self.component._node.label}: two equations give the discrete variable '{target.path}': "
-                f"{self.updates[target].text}, and {text}"
+                f"{self.updates[target].text}, and {text}; join them: When(..., otherwise=When(...)), in Modelica "
+                "when and elsewhen"
             )
         self.updates[target] = UpdateStatement(target, value, text)
 

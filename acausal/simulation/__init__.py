@@ -23,9 +23,11 @@ from acausal.simulation.log import Log as Log
 from acausal.simulation.motion import has_shapes as has_shapes
 from acausal.simulation.newton import (
     KAPPA as KAPPA,
+    LEAST as LEAST,
     SLOW as SLOW,
     STAGE_STEPS as STAGE_STEPS,
     STAGE_TOLERANCE as STAGE_TOLERANCE,
+    STALLS as STALLS,
 )
 from acausal.simulation.run import check_clocks as check_clocks, limits_of as limits_of
 from acausal.simulation.sampled_inputs import (

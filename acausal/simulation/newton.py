@@ -6,7 +6,7 @@ E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, Springer 1996,
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -36,6 +36,12 @@ SHORTEST = 1e-4
 STAGE_TOLERANCE = {"float64": 1e-9, "float32": 1e-5}
 """Tolerance of the state in the equations of fixed steps, relative and absolute, by precision."""
 
+STALLS = 0.9
+"""The ratio of what two corrections leave of the equation beyond which only roundoff is left, if they are tolerated."""
+
+LEAST = {"float64": 1e-30, "float32": 1e-12}
+"""States of fixed steps are found to the tolerance relative to their own size down to this, as far as roundoff lets."""
+
 STAGE_STEPS = 100
 """Newton steps allowed in each of them: there is no shorter step to try instead."""
 
@@ -63,16 +69,31 @@ class Patience(NamedTuple):
         most: corrections at most. diverges: the ratio of two corrections from which on it is given up.
         renews: whether the matrix is renewed where corrections shrink slowly.
         damps: whether it begins again with shorter corrections where it fails.
+        least: the absolute tolerance while corrections still shrink, by precision; ``None`` for that of the tolerances.
     """
 
     most: int
     diverges: float
     renews: bool = True
     damps: bool = False
+    least: Mapping[str, float] | None = None
+
+    def size(self, tolerances: Tolerances, change: State, *states: State) -> Float[Array, ""]:
+        """That of a correction, or of what it leaves of the equation, while these still shrink."""
+        if self.least is not None:
+            atol = jnp.asarray(self.least[change.dtype.name], change.dtype)
+            tolerances = Tolerances(tolerances.rtol, atol)
+        return tolerances.size(change, *states)
+
+    def ends(self, size: Array, tolerated: Array, stalls: Array, rate: Array, left: Any) -> Array:
+        """Whether a correction was the last: it is small, or tolerated where the iteration stalls."""
+        enough = jnp.minimum(1.0, rate)
+        small = (size == 0) | (size * enough < left)
+        return small if self.least is None else small | (stalls & (tolerated * enough < left))
 
 
 ADAPTIVE = Patience(10, 2.0)
-FIXED = Patience(STAGE_STEPS, np.inf, damps=True)
+FIXED = Patience(STAGE_STEPS, np.inf, damps=True, least=LEAST)
 
 
 def fixed_tolerances(dtype: DTypeLike) -> Tolerances:
@@ -86,7 +107,8 @@ class Newton(NamedTuple):
 
     Attributes:
         x: the solution so far. factors: of the matrix, where it may be renewed.
-        size: of the last correction over what is allowed. rate: by which they shrink. slow: whether that is slow.
+        size: of the last correction over what is allowed. remains: of the equation before it, likewise.
+        rate: by which corrections shrink. slow: whether that is slow.
         made: how many there were. jacobians: and how often the matrix was made.
         done, failed: why it stops.
     """
@@ -94,6 +116,7 @@ class Newton(NamedTuple):
     x: State
     factors: Any
     size: Float[Array, ""]
+    remains: Float[Array, ""]
     rate: Float[Array, ""]
     slow: Bool[Array, ""]
     made: Int[Array, ""]
@@ -169,25 +192,29 @@ def solve(
         if patience.renews:
             again = lambda: jacobian.factorized(equation.rates, n.x, equation.c)  # noqa: E731
             own = lax.cond(n.slow, again, lambda: n.factors)
-        correction = scale * jacobian.iteration_matrix.solve(own, equation.residual(n.x))
+        residual = equation.residual(n.x)
+        remains = patience.size(tolerances, residual, equation.before, equation.known)
+        correction = scale * jacobian.iteration_matrix.solve(own, residual)
         x = n.x - correction
-        size = tolerances.size(correction, equation.before, x)
+        size = patience.size(tolerances, correction, equation.before, x)
         ratio, later, made = size / n.size, n.made > 0, n.made + 1
         rate = jnp.where(later, jnp.maximum(0.3 * n.rate, ratio), n.rate)
-        done = jnp.where(size == 0, True, size * jnp.minimum(1.0, rate) < left)
+        tolerated = tolerances.size(correction, equation.before, x)
+        stalls = later & (remains > STALLS * n.remains)
+        done = patience.ends(size, tolerated, stalls, rate, left)
         diverged = later & (ratio > patience.diverges) & (n.slow | (not patience.renews))
         failed = ~done & (diverged | (made >= patience.most)) | ~jnp.isfinite(size)
         kept = own if patience.renews else None
         jacobians = n.jacobians + (n.slow if patience.renews else 0)
         slow = later & (ratio > SLOW)
-        return Newton(x, kept, size, rate, slow, made, jacobians, done & ~failed, failed)
+        return Newton(x, kept, size, remains, rate, slow, made, jacobians, done & ~failed, failed)
 
     one, none, no = jnp.ones((), guess.dtype), jnp.zeros((), jnp.int32), jnp.array(False)
     kept = factors if patience.renews else None
-    begun = Newton(guess, kept, one, one, no, none, none, no, no)
+    begun = Newton(guess, kept, one, one, one, no, none, none, no, no)
     found = lax.while_loop(lambda n: ~(n.done | n.failed), correct, begun)
     if patience.damps:
-        again = lambda: _damped(equation, jacobian, tolerances, left, found)  # noqa: E731
+        again = lambda: _damped(equation, jacobian, tolerances, left, patience, found)  # noqa: E731
         found = lax.cond(found.failed, again, lambda: found)
     return found._replace(x=_root(found.x, jacobian, whole))
 
@@ -212,6 +239,7 @@ def _damped(
     jacobian: StateJacobian,
     tolerances: Tolerances,
     left: Array | float,
+    patience: Patience,
     found: Newton,
 ) -> Newton:
     """Begin again with derivatives of zero; each correction is halved until less is left of the equation."""
@@ -233,14 +261,17 @@ def _damped(
         goes_on = lambda trial: ~(trial[3] < remains) & (trial[0] > SHORTEST)  # noqa: E731
         begin = jnp.full_like(n.size, 2.0), n.x, residual, jnp.full_like(remains, jnp.inf)
         share, x, residual, remains = lax.while_loop(goes_on, shorter, begin)
-        size = tolerances.size(share * whole, equation.before, x)
-        made = n.made + 1
+        size = patience.size(tolerances, share * whole, equation.before, x)
+        tolerated, made = tolerances.size(share * whole, equation.before, x), n.made + 1
         rate = jnp.where(n.made > found.made, size / n.size, 1.0)
-        near = (share == 1) & (size * jnp.minimum(1.0, rate) < left)
+        left_of = patience.size(tolerances, residual, equation.before, equation.known)
+        stalls = (n.made > found.made) & (left_of > STALLS * n.remains)
+        near = (share == 1) & patience.ends(size, tolerated, stalls, rate, left)
         failed = ~jnp.isfinite(remains) | (made >= 2 * STAGE_STEPS)
         after = n._replace(
             x=x,
             size=size,
+            remains=left_of,
             rate=rate,
             made=made,
             jacobians=n.jacobians + 1,

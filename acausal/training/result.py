@@ -73,6 +73,8 @@ class Fit(TrainedModel):
         not_laws: networks of which ``strategy="auto"`` knew no scales: modules of your own.
         without_constant: networks that ``strategy="auto"`` made vanish at zero, because nothing in the records
             determines their constant.
+        pieces: in how many pieces ``strategy="auto"`` followed the records, each from a start of its own, because the
+            model is too sensitive to its start to follow them whole (chaotic, for instance); 0 where they are whole.
     """
 
     @cached_property
@@ -276,6 +278,7 @@ def result(
     step_error: float | None = None,
     not_laws: tuple[str, ...] = (),
     without_constant: tuple[str, ...] = (),
+    pieces: int = 0,
 ) -> Fit:
     """The result of a training; arguments as the attributes of `Fit`."""
     best, history = trained.best, trained.history
@@ -310,4 +313,5 @@ def result(
         step_error=step_error,
         not_laws=not_laws,
         without_constant=without_constant,
+        pieces=pieces,
     )

@@ -9,18 +9,22 @@ from __future__ import annotations
 import logging
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
+from typing import Any
 
 import jax
 import numpy as np
 
-from acausal.errors import user_level
+from acausal.errors import TrainingError, user_level
+from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
 from acausal.training.auto.step_choice import StepChoice, finer_steps
-from acausal.training.auto.verdict import is_sensitive, step_error
+from acausal.training.auto.verdict import explains, step_error
 from acausal.training.concerns import concerns
 from acausal.training.member import Trained
 from acausal.training.objective.problem import Problem
-from acausal.training.preparation import Training
+from acausal.training.options import FitOptions
+from acausal.training.preparation import Training, prepare
 from acausal.training.result import Fit, result
 from acausal.training.starts import halving, starts_of
 from acausal.training.strategy import StageResult, segments, stage_results
@@ -62,6 +66,11 @@ def run(
         spread = starts_of(problem, starts, trained)
         starts, trained = [starts[spread.best]], (trained[spread.best],)
     problems = [replace(own, mesh=None) for own in problems]
+    if judged is None and (pieces := _in_pieces(training, problems, trained)) is not None:
+        with suppress(TrainingError):  # what was found over whole records stays
+            shorter = run(pieces, prefix=prefix)
+            if max(one.loss for one in shorter) < max(one.best.loss for one in trained):
+                return shorter
     errors = _step_errors(training, problems, trained)
     if (step := _finer(training, problems, trained, errors)) is not None:
         finer = _in_steps(training, step)
@@ -97,9 +106,53 @@ def run(
             error,
             () if from_data is None else from_data.not_laws,
             loose,
+            0 if from_data is None else from_data.pieces,
         )
         for own, one, seed, error in zip(problems, trained, seeds, errors, strict=True)
     )
+
+
+def _in_pieces(
+    training: Training, problems: Sequence[Problem], trained: Sequence[Trained]
+) -> Training | None:
+    """The training on pieces of the records, if it is sensitive to its starts and has not explained the whole ones.
+
+    It begins again from its arguments, and pieces that were too long are cut once more. ``None`` where the options say
+    more of records or of their starts than pieces would keep.
+    """
+    options: FitOptions = training.arguments["options"]
+    told = (options.validation, options.sample_weights, options.per_record, options.delays)
+    plain = options.x0 in ("auto", "fit") and options.record_weights == "samples"
+    if (
+        training.automatic is None
+        or not plain
+        or any((*told, options.lags, training.problem.system.remembered))
+        or any(one.interrupted for one in trained)
+    ):
+        return None
+    cut, bests = training.automatic.pieces > 0, [one.best for one in trained]
+    lengths = [
+        length_of_pieces(own, best.trainable, best.simulated, QUARTER if cut else HALF)
+        for own, best in zip(problems, bests, strict=True)
+        if not explains(own, best.loss, best.simulated.y)
+        and (cut or is_sensitive(own, best.trainable, best.simulated) or not np.isfinite(best.loss))
+    ]
+    measured = set.intersection(*(set(data.signals) for data in training.records.values()))
+    begin = tuple(n for n in problems[0].system.states if n in measured)
+    if not lengths:
+        return None
+    pieces = in_pieces(training.records, min(lengths), begin, again=cut)
+    if pieces is None:
+        return None
+    LOGGER.info("too sensitive for whole records: training on %d pieces of them", len(pieces))
+    found = options.x0 == "fit" or len(begin) < len(problems[0].system.states)
+    own = replace(options, checkpoint=None, resume=False, x0="fit" if found else "auto")
+    arguments: dict[str, Any] = {**training.arguments, "data": pieces, "options": own}
+    prepared = prepare(**arguments)
+    seconds = training.seconds + trained[0].seconds + prepared.seconds
+    assert prepared.automatic is not None
+    chosen = replace(prepared.automatic, pieces=len(pieces))
+    return replace(prepared, seconds=seconds, automatic=chosen)
 
 
 def _step_errors(

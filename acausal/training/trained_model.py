@@ -80,6 +80,7 @@ class TrainedModel:
     step_error: float | None = None
     not_laws: tuple[str, ...] = ()
     without_constant: tuple[str, ...] = ()
+    pieces: int = 0
 
     @property
     def x0(self) -> dict[str, float]:

@@ -301,3 +301,34 @@ def test_records_and_models_that_do_not_fit_are_refused():
         ac.estimate(plain(), ac.Data(t, {"push.f": t}))
     with pytest.raises(ac.DataError, match=r"lack 'push\.f', an input"):
         ac.estimate(plain(), ac.Data(t, {"mass.s": t}))
+
+
+class Hardening(ac.Component):
+    """An oscillator of any size."""
+
+    size = ac.Parameter(1.0)
+    u = ac.Input()
+    x, v = ac.Variable(start=0.0), ac.Variable(start=0.0)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.v)
+        law = 4 * self.x + 0.3 * self.v + self.x**3 / self.size**2
+        yield ac.Eq(ac.der(self.v), self.u - law)
+
+
+def test_the_unit_of_a_state_does_not_matter() -> None:
+    """Pressures of 1e7 Pa are known at the start as displacements of 1 m are."""
+    system, t = ac.compile(Hardening()), np.linspace(0, 5, 101)
+    push, found = np.sin(3 * t) + np.cos(1.3 * t), []
+    noise = np.random.default_rng(0).standard_normal(len(t))
+    for size in (1.0, 1e9):
+        sol = ac.simulate(
+            system, (0, 5), dt=0.05, inputs={"u": size * push}, params={"size": size}, solver="rk4"
+        )
+        data = ac.Data(t, {"u": size * push, "x": sol["x"] + 0.01 * size * noise})
+        estimated = ac.estimate(
+            system, data, sensors={"x": 0.01 * size}, x0={"x": 0.1 * size, "v": 0.0},
+            params={"size": size},
+        )  # fmt: skip
+        found.append(np.asarray(estimated["v"]) / size)
+    np.testing.assert_allclose(found[1], found[0], atol=1e-9)

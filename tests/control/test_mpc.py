@@ -147,3 +147,32 @@ def test_what_does_not_fit_is_named() -> None:
     with pytest.raises(ac.DataError, match="the plant has no"):
         controller.run(ac.compile(Arm(Rubbing())), 1.0, inputs=wind)
     assert ANGLE not in system.variables
+
+
+class Stage(ac.Component):
+    """A positioner of any size, with friction that grows."""
+
+    size = ac.Parameter(1.0)
+    f = ac.Input()
+    s, v = ac.Variable(start=0.0), ac.Variable(start=0.0)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.s), self.v)
+        yield ac.Eq(ac.der(self.v), (self.f - self.v - self.v**3 / self.size**2) / 2)
+
+
+def test_a_plan_is_the_same_in_any_unit() -> None:
+    """Micrometres in m, and pressures in Pa."""
+    system, plans = ac.compile(Stage()), []
+    for size in (1.0, 1e-6, 1e7):
+        controller = ac.control.mpc(
+            system, dt=0.1, steps=10, track={"s": 1.0}, effort={"f": 1e-4},
+            limits={"f": (-4 * size, 4 * size), "v": (-0.6 * size, 0.6 * size)},
+            params={"size": size},
+        )  # fmt: skip
+        controller.step({"s": 0.0, "v": 0.0})  # it is there already
+        plan = controller.step({"s": size, "v": 0.0}, 0.1)
+        assert plan.solved
+        plans.append(np.concatenate([plan.inputs["f"], plan.states["s"], plan.states["v"]]) / size)
+    np.testing.assert_allclose(plans[1:], [plans[0]] * 2, atol=1e-5)
+    assert abs(plans[0][-10:]).max() < 0.601

@@ -8,6 +8,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks, electrical as el, translational as tl
 from acausal.export.c_text import source
+from tests.simulation.test_small_states import Steep
 from tests.support.exported_c import ExportedC
 from tests.support.fmus import need_fmpy
 
@@ -80,6 +81,15 @@ def test_stiff_models_are_solved_as_here(
     here = ac.simulate(system, (0, end), dt=dt, solver=solver).x
     scale = np.abs(here).max(axis=0)
     assert (np.abs(np.array(found) - here).max(axis=0) <= 1e-5 * scale).all()
+
+
+def test_a_small_state_is_found_as_exactly_as_a_large_one(tmp_path: Path) -> None:
+    there, found = ExportedC(ac.compile(Steep(size=1e-12)), tmp_path, solver="kvaerno3"), [0.0]
+    for _ in range(10):
+        assert there.step(0.01) == 0
+        found.append(there.x[0] / 1e-12)
+    whole = ac.simulate(ac.compile(Steep()), 0.1, dt=0.01, solver="kvaerno3")
+    np.testing.assert_allclose(found, whole["x"], rtol=1e-9)
 
 
 class Pulsed(ac.Component):

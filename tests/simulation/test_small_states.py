@@ -55,3 +55,29 @@ def test_small_states_beside_large_ones_of_their_unit_take_no_finer_steps() -> N
     system = ac.compile(Two())
     usual, given = ac.simulate(system, 2.0), ac.simulate(system, 2.0, atol=1e-8)
     assert usual.statistics == given.statistics
+
+
+class Steep(ac.Component):
+    """A small state that a steep law pulls behind another, beside one of size 1."""
+
+    size = ac.Parameter(1.0)
+    x = ac.Variable(start=0.0)
+    y = ac.Variable(start=1.0)
+
+    def equations(self) -> Iterator[Any]:
+        law = self.x + self.size * ac.sinh(self.x / self.size)
+        yield ac.Eq(ac.der(self.x), 100 * (self.size * ac.cos(ac.time) * self.y - law))
+        yield ac.Eq(ac.der(self.y), -0.1 * self.y**3)
+
+
+def steep() -> ac.System:
+    return ac.compile(Steep())
+
+
+@pytest.mark.parametrize("solver", ["kvaerno3", "implicit_euler"])
+def test_implicit_fixed_steps_solve_for_a_state_of_any_size(solver: str) -> None:
+    system, ends = steep(), []
+    for size in (1.0, 1e-9, 1e-12):
+        sol = ac.simulate(system, 1.0, dt=0.01, solver=solver, params={"size": size})
+        ends.append(np.asarray(sol["x"]) / size)
+    np.testing.assert_allclose(ends[1:], [ends[0]] * 2, rtol=1e-9, atol=1e-12)

@@ -24,8 +24,9 @@ from acausal.networks import (
     linear_shape,
     with_scales,
 )
+from acausal.training.auto.sensitive import is_sensitive
 from acausal.training.auto.step_choice import StepChoice, finer_steps
-from acausal.training.auto.verdict import _hardly_determined, is_sensitive
+from acausal.training.auto.verdict import _hardly_determined
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions

@@ -63,7 +63,7 @@ static real residual(Model *m, const real t, const real *u, const real h, const 
 /* k = rates(t, from + h k). Where plain corrections fail, they begin anew, each halved until less is left. */
 static int solve_stage(Model *m, const real t, const real *u, const real h, const real *from, real *k, real *x) {
     for (int damped = 0; damped < 2; damped++) {
-        real size = INFINITY, rate = 1, before, left;
+        real size = INFINITY, rate = 1, before, tolerated, left;
         int renew = damped;
         if (damped)
             for (int i = 0; i < STATES; i++) k[i] = 0;
@@ -84,14 +84,17 @@ static int solve_stage(Model *m, const real t, const real *u, const real h, cons
                 found = residual(m, t, u, h, from, k, x);
             }
             before = size;
-            size = 0;
+            size = tolerated = 0;
             for (int i = 0; i < STATES; i++) {
-                const real part = fabs(h * share * m->seed[i]) / (TOLERANCE * (1 + fabs(x[i])));
-                if (!(part <= size)) size = part;
+                const real part = fabs(h * share * m->seed[i]) / TOLERANCE;
+                if (!(part / (LEAST + fabs(x[i])) <= size)) size = part / (LEAST + fabs(x[i]));
+                if (!(part / (1 + fabs(x[i])) <= tolerated)) tolerated = part / (1 + fabs(x[i]));
             }
             const real ratio = size / before;
             if (n > 0) rate = damped || ratio > R(0.3) * rate ? ratio : R(0.3) * rate;
-            if (size == 0 || (share == 1 && size * (rate < 1 ? rate : 1) < KAPPA)) return 1;
+            const real enough = rate < 1 ? rate : 1;
+            const int small = size == 0 || size * enough < KAPPA;
+            if (share == 1 && (small || (ratio > STALLS && tolerated * enough < KAPPA))) return 1;
             renew = damped || (n > 0 && ratio > SLOW);
             left = found;
         }

@@ -18,7 +18,7 @@ from acausal.export.c_text.functions import CFunction
 from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.steps import attempt_lines, step_lines
 from acausal.export.c_text.text import ModelText, c_file, least, prelude
-from acausal.simulation import KAPPA, SLOW, STAGE_STEPS, STAGE_TOLERANCE
+from acausal.simulation import KAPPA, LEAST, SLOW, STAGE_STEPS, STAGE_TOLERANCE, STALLS
 
 NUMBERS = ("t", "seed_t", "initial", "apart")
 """Arguments that are single numbers."""
@@ -150,7 +150,9 @@ def _limits(text: ModelText) -> Iterator[str]:
 def _implicit(text: ModelText) -> Iterator[str]:
     precision = "float64" if text.precision == "double" else "float32"
     yield f"#define TOLERANCE R({STAGE_TOLERANCE[precision]!r})"
+    yield f"#define LEAST R({LEAST[precision]!r})"
     yield f"#define KAPPA R({KAPPA!r})"
+    yield f"#define STALLS R({STALLS!r})"
     yield f"#define SLOW R({SLOW!r})"
     yield f"enum {{ STAGE_STEPS = {STAGE_STEPS} }};"
     yield from _function(text, "column", ["t", "x", "u", "seed_x"], ["ddx"], "jacobian_column")

@@ -76,6 +76,7 @@ class Automatic:
         step: of the integration; ``None`` where the user has said anything of it.
         linear: the linear start; ``None`` where no network lacks scales.
         not_laws: networks that are no laws of the library, which are trained from where they are.
+        pieces: how many pieces the records were cut into, as the model is sensitive; 0 where they are whole.
     """
 
     options: FitOptions
@@ -84,6 +85,7 @@ class Automatic:
     step: StepChoice | None
     linear: LinearStart | None
     not_laws: tuple[str, ...]
+    pieces: int = 0
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
         """The start of a training, with parameters and first states where the linear start found them."""

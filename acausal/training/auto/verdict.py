@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import NamedTuple
 
 import jax
@@ -14,6 +13,7 @@ from jaxtyping import Array, Float
 from acausal.errors import TrainingError, listing
 from acausal.networks import OffsetCorrected
 from acausal.simulation import EXPLICIT
+from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
 from acausal.training.auto.step_choice import allowed_error, difference
 from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
@@ -32,9 +32,6 @@ LIKELY, FAR = 0.9, np.log(5)
 AT_ONCE = 16
 """Parameters whose effects are computed at once."""
 
-OFF, SENSITIVE = 1e-3, 20.0
-"""Starts are moved by this part of the states' deviations; a model is sensitive if so many times as much changes."""
-
 LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
 """A law is hardly determined if two of its standard deviations are more than this part of its range, or the second part
 where it is steep, anywhere in what its argument was seen at, rare values apart."""
@@ -49,27 +46,6 @@ def step_error(problem: Problem, trainable: Trainable, simulated: Simulated) -> 
         return None
     fine = problem.finer().simulate(trainable)
     return difference(problem, np.asarray(simulated.y), np.asarray(fine.y))
-
-
-def sensitivity(problem: Problem, trainable: Trainable, simulated: Simulated) -> float:
-    """How much starts that are off by a thousandth of each state's deviation change the predictions, by as much.
-
-    As the loss counts it; zero where starts are not found by the training. Of a model that forgets its start it is
-    one at most, of a chaotic one very large: neither steps nor laws can be known well enough to follow a whole record.
-    """
-    prior, starts = problem.start_prior, trainable.starts
-    if prior is None or starts is None:
-        return 0.0
-    off = OFF * jnp.std(simulated.x, axis=0)
-    moves = jnp.where(prior.scale > 0, off / jnp.where(prior.scale > 0, prior.scale, 1.0), 0.0)
-    moved = problem.simulate(replace(trainable, starts=starts + moves))
-    change = difference(problem, np.asarray(simulated.y), np.asarray(moved.y))
-    return change / OFF / float(np.sqrt(len(problem.targets)))
-
-
-def is_sensitive(problem: Problem, trainable: Trainable, simulated: Simulated) -> bool:
-    """Whether `sensitivity` is so large that no steps and no law follow a whole record."""
-    return sensitivity(problem, trainable, simulated) > SENSITIVE
 
 
 class Verdict(NamedTuple):
@@ -101,8 +77,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     noise, level = noise_loss(problem.records, simulated.y), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
-    down = fit.loss <= DOWN_TO * noise
-    good = bool(np.isfinite(fit.loss) and (down or share <= SMALL))
+    down, good = fit.loss <= DOWN_TO * noise, explains(problem, fit.loss, simulated.y)
     left = [] if fit.loss <= noise else list(_left(fit))
     if down:
         first = f"explains the record {'nearly ' * bool(left)}down to its noise."
@@ -128,7 +103,12 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     ):
         others.append(sentence)
     bad = not good and np.isfinite(fit.loss)
-    if bad and (times := sensitivity(problem, fit.trained, simulated)) > SENSITIVE:
+    if fit.pieces:
+        others.append(
+            f"It was followed in {fit.pieces} pieces: the model is so sensitive to its start that no law "
+            "follows it whole."
+        )
+    elif bad and (times := sensitivity(problem, fit.trained, simulated)) > SENSITIVE:
         others.append(
             f"The model is sensitive: starts that are off by {100 * OFF:.2g} % change the targets by "
             f"{100 * OFF * times:.2g} %, so no law follows the whole record. Judge its laws over "
@@ -149,6 +129,14 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"{names}: a module of your own, trained from where it was, with your scales."
         )
     return Verdict(good, fit.loss, noise, (first, *others, *_ranges(fit)))
+
+
+def explains(problem: Problem, loss: float, y: Array) -> bool:
+    """Whether a loss is down to the noise that predictions leave, or small; True of losses of other kinds."""
+    if problem.loss is not LOSSES["nrmse"]:
+        return True
+    down = loss <= DOWN_TO * noise_loss(problem.records, y)
+    return bool(np.isfinite(loss) and (down or loss <= SMALL * np.sqrt(len(problem.targets))))
 
 
 def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
