@@ -156,23 +156,22 @@ def _raw(mod: Modification) -> Any:
     if not mod.inner:
         return value
     rest = {name: _raw(inner) for name, (inner, _) in grouped(mod.inner).items()}
-    if "nominal" in rest:
-        rest["nominal"] = nominal_of(rest["nominal"])
+    decide_nominal(rest)
     if isinstance(rest.get("start"), Literal):
         rest["start"] = rest["start"].number
     return rest if value is None else {"=": value, **rest}
 
 
-def nominal_of(value: Any) -> Any:
-    """A nominal value, of which parameters become numbers; what they do not decide is left out."""
+def decide_nominal(stated: dict[str, Any]) -> None:
+    """Make a nominal value among attributes a number; one that parameters do not decide is left out."""
 
     def number(v: Any) -> Any:
         return evaluated(v, "a nominal value", {}) if isinstance(v, sp.Expr) else v
 
     try:
-        return each(number, value)
-    except (ModelError, TypeError):
-        return None
+        stated["nominal"] = each(number, stated["nominal"])
+    except (KeyError, ModelError, TypeError):
+        stated.pop("nominal", None)
 
 
 def _placed(one: Given, part: Component, name: str, raw: Any) -> None:

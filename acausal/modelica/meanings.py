@@ -66,6 +66,11 @@ def refused_package(full: str) -> str:
     return next((f"{shortened(full)}: {reason}" for reason in reasons), "")
 
 
+def is_icon(full: str) -> bool:
+    """Whether this is a class of the library that has a picture alone, as ``Modelica.Blocks.Icons.Block``."""
+    return full.startswith("Modelica.") and ".Icons." in full
+
+
 class Literal(str):
     """The value of an enumeration: the text of its name, and its number.
 

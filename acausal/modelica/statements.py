@@ -229,4 +229,6 @@ def _target(part: Component, path: str) -> Any:
     connector = part._node.declaration(owner)
     if member is None and isinstance(connector, Connector):
         return of(connector._bind(part._node, owner), name)
-    return as_array(attribute(part, path)) if member is None else member
+    if member is None:
+        member = of(part, path) if path.isidentifier() else as_array(attribute(part, path))
+    return member

@@ -51,6 +51,7 @@ MOVES = {
     "tank.c[2]": 2,
     "fast.law.x": -5,
     "redeclared.law.x": -2,
+    "branch.x": 10 * 4 / 2,
 }
 """State -> its derivative where every state is 1."""
 
@@ -191,3 +192,9 @@ def test_a_unit_that_nobody_knows_is_a_warning(tmp_path: Path) -> None:
     )
     with pytest.warns(UserWarning, match="M.x: 'dollar' is not a unit"):
         assert ac.compile(ac.load(file)).states == ("x",)
+
+
+def test_a_nominal_value_may_be_a_parameter_without_a_value() -> None:
+    model = ac.load(FILE, "Idioms.Branch")
+    model.modify(area=4.0)
+    assert ac.simulate(ac.compile(model), 1.0, dt=0.1)["x"][-1] == pytest.approx(10 * 4 / 4)
