@@ -1,6 +1,7 @@
 """What public libraries write: names, sizes, redeclarations, buses."""
 
 import copy
+import re
 from pathlib import Path
 from typing import Any
 
@@ -122,25 +123,65 @@ def test_an_algorithm_is_one_unit() -> None:
     assert at["both[2]"] == [0, 20, 20, 20, 20, 10]
 
 
-def test_files_lie_in_the_folder_of_their_package(tmp_path: Path) -> None:
+TABLE = "#1\ndouble tab(2,2)\n0 1\n1 3\n"
+READS = """
+package Lib
+  model M
+    parameter String file = {file};
+    Modelica.Blocks.Sources.CombiTimeTable t(
+      tableOnFile = true, tableName = "tab", columns = {{2}},
+      fileName = file);
+    Real y = t.y[1];
+  equation
+    when time > 1 then
+      Modelica.Utilities.Streams.print("done");
+    end when;
+  end M;
+end Lib;"""
+
+
+@pytest.mark.parametrize(
+    "file",
+    [
+        'Modelica.Utilities.Files.loadResource("modelica://Lib/data/table.txt")',
+        '"modelica://Lib/data/table.txt"',
+        '"modelica://Lib.M/data/table.txt"',
+        '"file://{folder}/data/table.txt"',
+        '"data/table.txt"',
+    ],
+)
+def test_files_are_looked_for_beside_the_text(tmp_path: Path, file: str) -> None:
+    folder = tmp_path / "Lib"
+    (folder / "data").mkdir(parents=True)
+    (folder / "data" / "table.txt").write_text(TABLE)
+    (folder / "package.mo").write_text(READS.format(file=file.format(folder=folder)))
+    with pytest.warns(UserWarning, match="line 11, column 7: this text is not printed"):
+        model = ac.load(folder)
+    assert ac.simulate(ac.compile(model), 0.5, dt=0.1)["y"][-1] == pytest.approx(2)
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("none.txt", r"there is no file 'none.txt' in .*Lib or .*here$"),
+        ("/no/none.txt", r"there is no file '/no/none.txt'$"),
+        ("modelica://Other/none.txt", r"there is no folder of a package 'Other'; give the folder"),
+    ],
+)
+def test_a_file_that_is_not_there_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, reason: str
+) -> None:
     (tmp_path / "Lib").mkdir()
-    (tmp_path / "Lib" / "table.txt").write_text("#1\ndouble tab(2,2)\n0 1\n1 3\n")
-    (tmp_path / "Lib" / "package.mo").write_text("""
-        package Lib
-          model M
-            Modelica.Blocks.Sources.CombiTimeTable t(
-              tableOnFile = true, tableName = "tab", columns = {2},
-              fileName = Modelica.Utilities.Files.loadResource("modelica://Lib/table.txt"));
-            Real y = t.y[1];
-          equation
-            when time > 1 then
-              Modelica.Utilities.Streams.print("done");
-            end when;
-          end M;
-        end Lib;""")
-    with pytest.warns(UserWarning, match="line 10, column 15: this text is not printed"):
-        model = ac.load(tmp_path / "Lib")
-    assert model.t is not None
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    (tmp_path / "Lib" / "package.mo").write_text(READS.format(file=f'"{name}"'))
+    with pytest.raises(ac.ModelError, match="line 7, column 7") as caught:
+        ac.load(tmp_path / "Lib")
+    assert re.search(reason, str(caught.value).splitlines()[0])
+    (tmp_path / "here" / "none.txt").write_text(TABLE)
+    if name == "none.txt":  # the present folder counts, too
+        with pytest.warns(UserWarning, match="not printed"):
+            ac.load(tmp_path / "Lib")
 
 
 def test_members_of_arrays_inputs_with_a_value_and_names_of_instances(tmp_path: Path) -> None:
