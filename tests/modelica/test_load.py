@@ -2,15 +2,17 @@
 
 import copy
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import jax
 import numpy as np
 import pytest
 
 import acausal as ac
 from acausal.command import main
-from acausal.components import translational as tl
+from acausal.components import neural, translational as tl
 from acausal.modelica import statements
 from acausal.modelica.evaluate import Evaluator
 from acausal.modeling import Reference
@@ -226,6 +228,33 @@ def test_an_export_comes_back(tmp_path: Path, case: str, selfcontained: bool) ->
         for s, p in ((again, again.parameters()), (ours, params))
     )
     assert np.max(np.abs(found - wanted)) < 1e-12
+
+
+@pytest.mark.parametrize("selfcontained", [True, False])
+def test_gradients_of_an_export_are_the_native_ones(tmp_path: Path, selfcontained: bool) -> None:
+    """Of a simulation's loss, with respect to the parameters and to all weights of a network."""
+    law = neural.Compliance(input_scale=0.1, output_scale=5.0, odd=True, width=3, depth=1)
+    ours = ac.compile(CASES["oscillator"][0]().replace("spring_nn", law))
+    params = ours.parameters(1)
+    file = ac.export.modelica(ours, tmp_path / "out.mo", params, selfcontained=selfcontained)
+    again = ac.compile(ac.load(file))
+
+    def loss(system: ac.System, params: Any) -> Any:
+        run = ac.simulate(system, 0.2, dt=0.01, params=params)
+        return jax.numpy.sum(run["mass.s"] ** 2 + 0.1 * run["mass.v"] ** 2)
+
+    found = jax.grad(partial(loss, again))(again.parameters())
+    wanted = jax.grad(partial(loss, ours))(params)
+    layers = wanted.pop("spring_nn.net").net.net
+    for kind in ("weights", "biases"):
+        for layer, array in enumerate(getattr(layers, kind), start=1):
+            for place in np.ndindex(array.shape):
+                index = ",".join(str(i + 1) for i in place)
+                wanted[f"spring_nn.net_1.{kind}_{layer}[{index}]"] = array[place]
+    assert {*found} == {*wanted}
+    scale = max(abs(v) for v in wanted.values())
+    assert scale > 1e-3
+    assert max(abs(found[k] - wanted[k]) for k in found) < 1e-9 * scale
 
 
 def test_attributes_and_constants_of_a_netlist_are_written(tmp_path: Path) -> None:
