@@ -37,6 +37,10 @@ class ModelicaError(NetlistError):
     """Modelica text is wrong, or says what is not supported; the message begins with file, line and column."""
 
 
+class NumbersNeededError(ModelicaError):
+    """What Modelica text computes becomes no expression that is small enough; of numbers it could be computed."""
+
+
 @dataclass(frozen=True, eq=False)
 class Source:
     """The text of one file.

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 import acausal as ac
 
@@ -239,3 +240,76 @@ def test_a_nominal_value_may_be_a_parameter_without_a_value() -> None:
     model = ac.load(FILE, "Idioms.Branch")
     model.modify(area=4.0)
     assert ac.simulate(ac.compile(model), 1.0, dt=0.1)["x"][-1] == pytest.approx(10 * 4 / 4)
+
+
+SUMS = """
+package P
+  function total "1 + 2 + ... + n"
+    input Real n;
+    output Real y = 0;
+  algorithm
+    for i in 1:integer(n) loop y := y + i; end for;
+  end total;
+  model Part
+    parameter Real a;
+    Real x = total(a);
+  end Part;
+  model Two
+    Part p(a = 2), q(a = 3);
+  end Two;
+  model Sizes
+    parameter Real a = 0.3;
+    parameter Integer n = integer(10*a + 0.5);
+    Real x[n](each start = a, each fixed = true);
+  equation
+    der(x) = -x;
+  end Sizes;
+end P;"""
+
+
+def test_what_parameters_decide_in_a_function_is_their_own_parts(tmp_path: Path) -> None:
+    """Two parts alike but for a number by which a function's loop ends: they had the equations of the first."""
+    (tmp_path / "P.mo").write_text(SUMS)
+    run = ac.simulate(ac.compile(ac.load(tmp_path / "P.mo", "P.Two")), 1.0)
+    assert [run["p.x"][-1], run["q.x"][-1]] == [1 + 2, 1 + 2 + 3]
+
+
+def test_a_parameter_that_has_decided_a_size_stays(tmp_path: Path) -> None:
+    (tmp_path / "P.mo").write_text(SUMS)
+    model = ac.load(tmp_path / "P.mo", "P.Sizes")
+    model.modify(a=0.31)  # decides the same
+    with pytest.raises(ac.ModelError, match=r"'a' decided .* was 3.* 5.*Sizes\(a=...\)"):
+        model.modify(a=0.5)
+    larger = ac.import_modelica(tmp_path / "P.mo").Sizes(a=0.5)
+    assert len(ac.compile(larger).states) == 5
+
+
+def test_a_function_too_large_for_an_expression_is_a_number(tmp_path: Path) -> None:
+    """The exponential function of a matrix, by its series until nothing changes."""
+    (tmp_path / "M.mo").write_text("""
+      model M
+        function series
+          input Real A[:, size(A, 1)];
+          output Real sum[size(A, 1), size(A, 1)] = identity(size(A, 1));
+        protected
+          Real term[size(A, 1), size(A, 1)] = identity(size(A, 1));
+          Integer i = 1;
+        algorithm
+          while max(abs(term)) > 1e-18 loop
+            term := term*A/i;
+            sum := sum + term;
+            i := i + 1;
+          end while;
+        end series;
+        parameter Real A[2, 2] = {{-1, 0.2}, {0.3, -2}};
+        Real x[2](each start = 1, each fixed = true);
+      equation
+        der(x) = series(A)*x;
+      end M;""")
+    with pytest.warns(UserWarning, match=r"column 18: series has no expression .* follow 'A'"):
+        model = ac.load(tmp_path / "M.mo")
+    system = ac.compile(model)
+    found = system.vector_field(0.0, np.ones(2), None, system.parameters())
+    np.testing.assert_allclose(found, expm([[-1, 0.2], [0.3, -2]]) @ [1, 1], rtol=1e-12)
+    with pytest.raises(ac.ModelError, match="'A' decided"):
+        model.modify(A=[[-1.0, 0.2], [0.3, -3.0]])
