@@ -429,6 +429,12 @@ class ClassNode:
             p for p in arguments if p[0].name not in inherited.entries and p[0].redeclared is None
         ]
 
+    def names(self) -> list[str]:
+        """Names of its classes, also of those that it inherits from the text."""
+        bases = [self.base(clause, quiet=True) for clause in self.extends]
+        inherited = [name for base in bases if isinstance(base, ClassNode) for name in base.names()]
+        return [*dict.fromkeys((*self.classes, *self.files, *inherited))]
+
     def models(self) -> Iterator[ClassNode]:
         """The models in it that can be compiled, itself included, in order."""
         if self.definition.kind in ("model", "block", "class") and not self.definition.partial:

@@ -108,7 +108,8 @@ class Interpreter(Algorithms):
         if name.startswith(REFUSED_PACKAGES):
             raise self.wrong(f"{name}(...) is not supported", len(name))
         if isinstance(found, Native | Predefined | ClassNode):
-            raise self.wrong(f"'{name}' is not a function", len(name))
+            kind = f"a {found.definition.kind}" if isinstance(found, ClassNode) else "a class"
+            raise self.wrong(f"'{name}' is {kind}, not a function", len(name))
         self.at = call.function.at
         raise self.frame.node.unknown(call.function, "function")
 
@@ -304,6 +305,9 @@ class Interpreter(Algorithms):
         self.operations, self.statements = inner.operations, inner.statements
         for name in outputs:
             if local[name] is None or any(v is None for v in elements(local[name])):
+                if definition.partial:
+                    reason = f"'{call.function.text}' is partial; redeclare it, or its package"
+                    raise self.wrong(reason, length)
                 raise self.wrong(f"{definition.name} does not assign '{name}'", length)
         return [local[name] for name in outputs]
 
