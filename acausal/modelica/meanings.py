@@ -101,9 +101,9 @@ def unknown_name(node: Any, name: DottedName, what: str) -> str:
 
 def _hint(node: Any, name: DottedName) -> str:
     words = [w for w in name.words if w]
-    above, rest = node.lookup(name.words[:-1]) if len(words) > 1 else (None, ())
-    if hasattr(above, "definition") and not rest and (known := above.names()):
-        return nearest(words[-1], known)
+    above, rest = node.lookup(name.words[:-1]) if len(words) > 1 else (node.parent, words)
+    if hasattr(above, "definition") and not rest and above.names():
+        return nearest(words[-1], above.names())
     if hasattr(node.tree.root(words[0]) or node, "definition"):
         known = [*node.classes, *getattr(node.parent, "classes", ())]
         return f"{nearest(words[-1], known)} {PATH_HINT}" if known else PATH_HINT
