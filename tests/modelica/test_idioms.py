@@ -313,3 +313,23 @@ def test_a_function_too_large_for_an_expression_is_a_number(tmp_path: Path) -> N
     np.testing.assert_allclose(found, expm([[-1, 0.2], [0.3, -2]]) @ [1, 1], rtol=1e-12)
     with pytest.raises(ac.ModelError, match="'A' decided"):
         model.modify(A=[[-1.0, 0.2], [0.3, -3.0]])
+
+
+def test_elements_of_discrete_arrays_start_by_their_initial_equations(tmp_path: Path) -> None:
+    (tmp_path / "D.mo").write_text("""
+      model D
+        discrete Real a[2];
+        Integer k[3];
+      initial equation
+        pre(a[2]) = 3;
+        pre(a[1]) = 1;
+        pre(k) = {4, 5, 6};
+      equation
+        when sample(0.5, 0.5) then
+          for i in 1:2 loop a[i] = pre(a[i]) + 1; end for;
+          for i in 1:3 loop k[i] = pre(k[i]) + i; end for;
+        end when;
+      end D;""")
+    run = ac.simulate(ac.compile(ac.load(tmp_path / "D.mo")), 0.7, dt=0.1)
+    ends = {name: [float(run[name][i]) for i in (0, -1)] for name in ("a[1]", "a[2]", "k[3]")}
+    assert ends == {"a[1]": [1, 2], "a[2]": [3, 4], "k[3]": [6, 9]}
