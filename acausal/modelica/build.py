@@ -94,11 +94,15 @@ class ModelicaModel(Component):
         Raises:
             DeclarationError: for a value by which what was decided when the text was read would be another.
         """
+        known = self._node.modifiers
+        saved = dict(known)
         super().modify(**modifiers)
         for name in modifiers:
             for text, (expression, before) in self._build.deciding.get(name, {}).items():
                 now = number_or_truth(expression, f"'{name}'", {})
                 if now != before:
+                    known.clear()
+                    known.update(saved)
                     how = f"ac.import_modelica(...).{type(self).__name__}({name}=...)"
                     raise DeclarationError(
                         f"'{name}' decided a structure when the text was read: '{shortened(text)}' was {before} and "

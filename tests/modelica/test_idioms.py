@@ -280,6 +280,7 @@ def test_a_parameter_that_has_decided_a_size_stays(tmp_path: Path) -> None:
     model.modify(a=0.31)  # decides the same
     with pytest.raises(ac.ModelError, match=r"'a' decided .* was 3.* 5.*Sizes\(a=...\)"):
         model.modify(a=0.5)
+    assert ac.compile(model).parameters()["a"] == 0.31
     larger = ac.import_modelica(tmp_path / "P.mo").Sizes(a=0.5)
     assert len(ac.compile(larger).states) == 5
 
