@@ -311,6 +311,8 @@ class Operators(Arithmetic):
             else:
                 return value if self.known(holds, "the condition of a text") else otherwise
         events = self.frame.events and self.varies(holds)
+        if events and self.frame.calls and holds.has(sp.Eq, sp.Ne):
+            events = False  # a function has no events; nothing can watch for equal numbers
 
         def one(a: Any, b: Any) -> Any:
             if isinstance(a, Record):

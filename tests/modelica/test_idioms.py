@@ -334,3 +334,24 @@ def test_elements_of_discrete_arrays_start_by_their_initial_equations(tmp_path: 
     run = ac.simulate(ac.compile(ac.load(tmp_path / "D.mo")), 0.7, dt=0.1)
     ends = {name: [float(run[name][i]) for i in (0, -1)] for name in ("a[1]", "a[2]", "k[3]")}
     assert ends == {"a[1]": [1, 2], "a[2]": [3, 4], "k[3]": [6, 9]}
+
+
+def test_functions_compare_numbers_by_equality(tmp_path: Path) -> None:
+    """In a model nothing could watch for it; a function has no events."""
+    (tmp_path / "M.mo").write_text("""
+      model M
+        function inverse "of all numbers but zero"
+          input Real u;
+          output Real y;
+        algorithm
+          if u <> 0 then y := 1/u; else y := 0; end if;
+        end inverse;
+        Real x(start = 1, fixed = true), y, z;
+      equation
+        der(x) = -x;
+        y = inverse(x);
+        z = inverse(max(0, -x));
+      end M;""")
+    run = ac.simulate(ac.compile(ac.load(tmp_path / "M.mo")), 1.0, dt=0.01)
+    assert run["y"][-1] == pytest.approx(np.e)
+    assert run["z"][-1] == 0
