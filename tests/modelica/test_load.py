@@ -16,7 +16,7 @@ from acausal.components import neural, translational as tl
 from acausal.modelica import statements
 from acausal.modelica.evaluate import Evaluator
 from acausal.modeling import Reference
-from benchmarks import import_
+from benchmarks import import_, library
 from benchmarks.chain import Chain
 from tests.export.test_modelica import CASES, Vectors
 
@@ -278,3 +278,18 @@ def test_commands_take_a_file_and_a_class_of_it(capsys: pytest.CaptureFixture[st
     assert "RC is right: 20 equations, 1 state" in capsys.readouterr().out
     assert main(["check", f"{TEXTBOOK}:Nope"]) == 3
     assert "there is no model 'Nope'" in capsys.readouterr().err
+
+
+def test_a_benchmark_counts_what_becomes_of_the_models_of_a_library(tmp_path: Path) -> None:
+    (tmp_path / "package.mo").write_text("""package Lib
+      model A Real x(start = 1, fixed = true); equation der(x) = -x; annotation(experiment(StopTime = 2)); end A;
+      model B input Real u; Real x = u; end B;
+      model C Real x = delay(time, 1); end C;
+      partial model D end D;
+      package P model E end E; end P;
+    end Lib;""")
+    found = [*library.names(tmp_path, examples=False)]
+    assert found == ["Lib.A", "Lib.B", "Lib.C", "Lib.P.E"]
+    assert [*library.names(tmp_path, examples=True)] == ["Lib.A"]
+    columns = [library.outcome(tmp_path, name, [])[0] for name in found[:3]]
+    assert columns == ["simulated", "simulated", "refused"]
