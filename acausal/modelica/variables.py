@@ -281,7 +281,7 @@ def _value(stated: Any) -> Any:
 
 
 def _text(stated: Any) -> str:
-    value = _value(stated)
-    if isinstance(stated, Bound) and not isinstance(value, str):
+    first, *others = elements(_value(stated))
+    if isinstance(stated, Bound) and not isinstance(first, str):
         raise stated.wrong("a unit is a text")
-    return value
+    return first if all(v == first for v in others) else ""  # an array has one unit here, or none

@@ -355,3 +355,16 @@ def test_functions_compare_numbers_by_equality(tmp_path: Path) -> None:
     run = ac.simulate(ac.compile(ac.load(tmp_path / "M.mo")), 1.0, dt=0.01)
     assert run["y"][-1] == pytest.approx(np.e)
     assert run["z"][-1] == 0
+
+
+def test_an_array_of_unlike_units_has_none(tmp_path: Path) -> None:
+    (tmp_path / "M.mo").write_text("""
+      model M
+        Modelica.Blocks.Interfaces.RealOutput r[2](final unit = {"m", "rad"});
+        Modelica.Blocks.Interfaces.RealOutput v[2](final unit = {"m/s", "m/s"});
+      equation
+        r = {time, 2*time};
+        v = {1, 2};
+      end M;""")
+    system = ac.compile(ac.load(tmp_path / "M.mo"))
+    assert [system.unit(name) for name in ("r[1]", "v[2]")] == ["", "m/s"]

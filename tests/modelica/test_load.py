@@ -293,3 +293,12 @@ def test_a_benchmark_counts_what_becomes_of_the_models_of_a_library(tmp_path: Pa
     assert [*library.names(tmp_path, examples=True)] == ["Lib.A"]
     columns = [library.outcome(tmp_path, name, [])[0] for name in found[:3]]
     assert columns == ["simulated", "simulated", "refused"]
+
+
+def test_a_class_that_the_library_has_is_loaded_from_its_text(tmp_path: Path) -> None:
+    """A package of the standard library's name has its own text, which is what is asked for."""
+    (tmp_path / "package.mo").write_text("""package Modelica package Blocks package Math
+      block Gain parameter Real k = 3; input Real u; output Real y = k*u; end Gain;
+    end Math; end Blocks; end Modelica;""")
+    model = ac.load(tmp_path, "Modelica.Blocks.Math.Gain")
+    assert ac.compile(model).parameters() == {"k": 3.0}
