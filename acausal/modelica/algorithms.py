@@ -124,7 +124,7 @@ class Algorithms(Evaluator):
         if word in self.inputs:
             raise self.wrong(f"'{word}' is an input; assign a protected variable", len(word))
         if any(isinstance(v, sp.Basic) and _parts(v) > MAX_PARTS for v in elements(value)):
-            raise self.wrong(
+            raise self.too_large(
                 f"'{word}' becomes an expression of more than {MAX_PARTS} parts; make fewer steps, "
                 "or state an equation for what they lead to",
                 len(word),
@@ -234,7 +234,7 @@ class Algorithms(Evaluator):
         self.statements += 1
         if not isinstance(holds, bool):
             self.at = loop.condition.at
-            raise self.wrong(
+            raise self.too_large(
                 "a loop whose end changes with time is not supported; use a loop over 1:n"
             )
         return holds

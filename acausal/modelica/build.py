@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, cast
 
 import numpy as np
+import sympy as sp
 
-from acausal.errors import nearest
+from acausal.errors import DeclarationError, nearest, shortened
 from acausal.modelica import statements
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.connectors import connector
@@ -26,7 +27,7 @@ from acausal.modelica.modifications import (
     modification,
     redeclared_class,
 )
-from acausal.modelica.operators import Frame
+from acausal.modelica.operators import Frame, number_or_truth
 from acausal.modelica.outer import inner_of
 from acausal.modelica.overconstrained import ConnectionGraph, Edge
 from acausal.modelica.rules import check_replacement
@@ -87,6 +88,27 @@ class ModelicaModel(Component):
         frame = Frame(self._class)
         return {names[k]: Interpreter(frame).value(v) for k, v in stated.items() if k in names}
 
+    def modify(self, /, **modifiers: Any) -> None:
+        """Set parameters, options, modules and starts by name, as the constructor does.
+
+        Raises:
+            DeclarationError: for a value by which what was decided when the text was read would be another.
+        """
+        known = self._node.modifiers
+        saved = dict(known)
+        super().modify(**modifiers)
+        for name in modifiers:
+            for text, (expression, before) in self._build.deciding.get(name, {}).items():
+                now = number_or_truth(expression, f"'{name}'", {})
+                if now != before:
+                    known.clear()
+                    known.update(saved)
+                    how = f"ac.import_modelica(...).{type(self).__name__}({name}=...)"
+                    raise DeclarationError(
+                        f"'{name}' decided a structure when the text was read: '{shortened(text)}' was {before} and "
+                        f"would be {now}; give it when the component is made: {how}"
+                    )
+
     def equations(self) -> Iterator[Any]:
         """The equations of the text, and those of variables that are given a value."""
         yield from super().equations()
@@ -142,6 +164,7 @@ class Build:
         given_inwards: variables of parts that equal one of this component, and that one.
         graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
+        deciding: parameter of this component -> those of them that it is part of, here or elsewhere.
         fixed: of arrays of which some elements alone are fixed at the start, which.
         performs: whether it calls functions of the text or asserts something, which depends on values.
         bound_inputs: inputs that have a value, and are no signals therefore.
@@ -162,6 +185,7 @@ class Build:
         self.outer: dict[Reference, Reference] = {}
         self.given_inwards: list[tuple[Reference, Reference]] = []
         self.decided: dict[str, float] = {}
+        self.deciding: dict[str, dict[str, tuple[sp.Basic, float]]] = {}
         self.counted: dict[Any, int] = {}
         self.fixed: dict[str, Any] = {}
         self.parts_of_text: list[ModelicaModel] = []

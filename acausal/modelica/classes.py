@@ -9,7 +9,15 @@ from typing import Any
 
 from acausal.errors import nearest
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import PATH_HINT, Imported, Native, Predefined, Prefix, unknown_name
+from acausal.modelica.meanings import (
+    PATH_HINT,
+    Imported,
+    Native,
+    Predefined,
+    Prefix,
+    is_icon,
+    unknown_name,
+)
 from acausal.modelica.rules import check_base, check_same, check_sections
 from acausal.modelica.syntax import (
     ClassDefinition,
@@ -359,7 +367,7 @@ class ClassNode:
             case Native():
                 view.natives.append((base, arguments))
                 return
-            case Prefix() if base.full.startswith("Modelica.Icons"):
+            case Prefix() if is_icon(base.full):
                 return
             case Prefix() if any(lib.is_enumeration(base.full) for lib in self.tree.libraries):
                 view.predefined = Predefined(base.full)
@@ -420,6 +428,12 @@ class ClassNode:
         return [
             p for p in arguments if p[0].name not in inherited.entries and p[0].redeclared is None
         ]
+
+    def names(self) -> list[str]:
+        """Names of its classes, also of those that it inherits from the text."""
+        bases = [self.base(clause, quiet=True) for clause in self.extends]
+        inherited = [name for base in bases if isinstance(base, ClassNode) for name in base.names()]
+        return [*dict.fromkeys((*self.classes, *self.files, *inherited))]
 
     def models(self) -> Iterator[ClassNode]:
         """The models in it that can be compiled, itself included, in order."""

@@ -380,11 +380,9 @@ class Evaluator(Operators):
     def floored(self, value: Any) -> Any:
         """The greatest integer not above a number."""
         value = self.number(value)
-        return (
-            self.finite(floor(value, events=self.frame.events))
-            if isinstance(value, sp.Expr)
-            else int(np.floor(value))
-        )
+        if not isinstance(value, sp.Expr):
+            return int(np.floor(value))
+        return self.finite(floor(value, events=self.frame.events and self.varies(value)))
 
     def _call(self, call: FunctionCall) -> Any:
         raise NotImplementedError
@@ -392,7 +390,7 @@ class Evaluator(Operators):
     def elsewhere(self, frame: Frame) -> Self:
         """An evaluator for another frame, with the operations that are left."""
         found = type(self)(frame)
-        found.operations = self.operations
+        found.operations, found.build = self.operations, self.build
         return found
 
     def record_of(self, node: ClassNode, given: list[Any], named: dict[str, Any]) -> Record:

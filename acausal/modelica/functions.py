@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import reduce
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from acausal.errors import listing
 from acausal.modelica.algorithms import REFUSED, Algorithms, Left
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.language import SPECIAL
@@ -26,7 +27,7 @@ from acausal.modelica.syntax import (
     LiteralConstant,
     Whole,
 )
-from acausal.modelica.tokens import PREDEFINED, ModelicaError
+from acausal.modelica.tokens import PREDEFINED, ModelicaError, NumbersNeededError
 from acausal.modelica.values import (
     FunctionValue,
     Record,
@@ -35,7 +36,9 @@ from acausal.modelica.values import (
     each,
     elements,
     is_record,
+    mapped,
     with_fields,
+    without_index,
 )
 from acausal.modelica.views import Entry
 from acausal.modeling import Component, check_size
@@ -105,7 +108,8 @@ class Interpreter(Algorithms):
         if name.startswith(REFUSED_PACKAGES):
             raise self.wrong(f"{name}(...) is not supported", len(name))
         if isinstance(found, Native | Predefined | ClassNode):
-            raise self.wrong(f"'{name}' is not a function", len(name))
+            kind = f"a {found.definition.kind}" if isinstance(found, ClassNode) else "a class"
+            raise self.wrong(f"'{name}' is {kind}, not a function", len(name))
         self.at = call.function.at
         raise self.frame.node.unknown(call.function, "function")
 
@@ -236,7 +240,7 @@ class Interpreter(Algorithms):
                     length,
                 )
             return [self._of_library(plain, external, given, {})]
-        inputs, outputs = view.of_causality("input"), view.of_causality("output")
+        inputs = view.of_causality("input")
         if len(call.arguments) > len(inputs):
             raise self.wrong(
                 f"{definition.name} takes {len(inputs)} arguments, not {len(call.arguments)}",
@@ -256,6 +260,24 @@ class Interpreter(Algorithms):
         self.at = at
         if arrays := [n for n, v in values.items() if np.ndim(v) > _dimensions(view.entries[n])]:
             return self._for_each_element(node, call, values, arrays)
+        before = self.operations, self.statements
+        try:
+            return self._performed(node, call, values)
+        except NumbersNeededError:
+            symbols = dict.fromkeys(s for v in values.values() for s in _symbols(v))
+            if self.frame.build is None or any(map(self.varies, symbols)):
+                raise
+            self.at, (self.operations, self.statements) = at, before
+            names = dict.fromkeys(without_index(str(s)) for s in symbols)
+            reason = "has no expression that is small enough: it is a number, which does not follow"
+            self.unwatched(call, f"{definition.name} {reason} {listing(names)}")
+            numbers = {n: mapped(lambda v: self.known(v, "this"), v) for n, v in values.items()}
+            return self._performed(node, call, numbers)
+
+    def _performed(self, node: ClassNode, call: FunctionCall, values: dict[str, Any]) -> list[Any]:
+        """The results of a function of given arguments."""
+        definition, view, length = node.definition, node.view(), len(call.function.text)
+        inputs, outputs = view.of_causality("input"), view.of_causality("output")
         local: dict[str, Any] = {}
         frame = Frame(node, None, local, self.frame.events, self.frame.calls + 1)
         inner = self.elsewhere(frame)
@@ -283,6 +305,9 @@ class Interpreter(Algorithms):
         self.operations, self.statements = inner.operations, inner.statements
         for name in outputs:
             if local[name] is None or any(v is None for v in elements(local[name])):
+                if definition.partial:
+                    reason = f"'{call.function.text}' is partial; redeclare it, or its package"
+                    raise self.wrong(reason, length)
                 raise self.wrong(f"{definition.name} does not assign '{name}'", length)
         return [local[name] for name in outputs]
 
@@ -427,6 +452,15 @@ class Interpreter(Algorithms):
         more: dict[str, Expression] = {k: LiteralConstant(v, self.at) for k, v in named.items()}
         name = DottedName((function.definition.name,), {}, self.at)
         return self.inlined(function, FunctionCall(name, arguments, more, self.at))[0]
+
+
+def _symbols(value: Any) -> Iterator[Any]:
+    """The symbols of a value, an array or a record."""
+    for one in value.fields.values() if isinstance(value, Record) else elements(value):
+        if isinstance(one, Record | np.ndarray):
+            yield from _symbols(one)
+        elif isinstance(one, sp.Basic):
+            yield from sorted(one.free_symbols, key=str)
 
 
 def _dimensions(entry: Entry) -> float:

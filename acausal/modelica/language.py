@@ -12,6 +12,7 @@ import sympy as sp
 
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.overconstrained import is_root, is_rooted
+from acausal.modelica.resources import path_of
 from acausal.modelica.syntax import Comprehension, Expression, FunctionCall
 from acausal.modelica.values import (
     Record,
@@ -332,18 +333,11 @@ def _instance_name(self: Evaluator, call: FunctionCall) -> Any:
 
 
 def _resource(self: Evaluator, call: FunctionCall) -> Any:
-    """The path of a file; one within a package, ``modelica://Package/file``, is relative to its folder."""
+    """The path of a file."""
     (text,) = self.arguments(call, 1)
     if not isinstance(text, str):
         raise self.wrong("the name of a file is a text")
-    package, _, rest = text.removeprefix("modelica://").partition("/")
-    if not text.startswith("modelica://"):
-        return text
-    node = self.frame.node.tree.resolve(package)
-    folder = getattr(node, "folder", None)
-    if folder is None:
-        raise self.wrong(f"there is no folder of a package '{package}'")
-    return f"{folder}/{rest}"
+    return path_of(text, self.frame, self.wrong)
 
 
 def _of_numbers(

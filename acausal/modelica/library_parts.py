@@ -12,6 +12,7 @@ from acausal.errors import ModelError
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Given, Modification
+from acausal.modelica.resources import found_file
 from acausal.modelica.syntax import ArrayConstructor
 from acausal.modelica.values import each, nested, of
 from acausal.modeling import Component, Eq, Option, Variable, check_nested, element_name
@@ -53,7 +54,8 @@ def make_part(cls: Any, given: Sequence[Given], base: Any = None) -> Any:
         cls = next(c for c in cls.__mro__ if not hasattr(c, "_class"))
     raw: dict[str, Any] = {}
     first: Given | None = None
-    for name, (mod, one) in grouped(given, cls).items():
+    stated = grouped(given, cls)
+    for name, (mod, one) in stated.items():
         if is_structural(cls, name):
             first = first or one
             raw[name] = _structural(cls, name, mod)
@@ -61,6 +63,9 @@ def make_part(cls: Any, given: Sequence[Given], base: Any = None) -> Any:
             shape = getattr(cls._declared.get(name), "shape", None) or ()
             if len(shape) == 1 and isinstance(shape[0], str):  # an open size is that of the value
                 raw.setdefault(shape[0], len(mod.value.expression.items))
+    file = stated["fileName"] if raw.get("tableOnFile") and "fileName" in raw else None
+    if file and file[0].value and isinstance(raw["fileName"], str):
+        raw["fileName"] = found_file(raw["fileName"], file[0].value.frame, file[1].wrong)
     try:
         return make(ModifierValues(), cls, raw, cls.__name__, cls.__name__, base)[0]
     except ModelError as error:
@@ -156,23 +161,22 @@ def _raw(mod: Modification) -> Any:
     if not mod.inner:
         return value
     rest = {name: _raw(inner) for name, (inner, _) in grouped(mod.inner).items()}
-    if "nominal" in rest:
-        rest["nominal"] = nominal_of(rest["nominal"])
+    decide_nominal(rest)
     if isinstance(rest.get("start"), Literal):
         rest["start"] = rest["start"].number
     return rest if value is None else {"=": value, **rest}
 
 
-def nominal_of(value: Any) -> Any:
-    """A nominal value, of which parameters become numbers; what they do not decide is left out."""
+def decide_nominal(stated: dict[str, Any]) -> None:
+    """Make a nominal value among attributes a number; one that parameters do not decide is left out."""
 
     def number(v: Any) -> Any:
         return evaluated(v, "a nominal value", {}) if isinstance(v, sp.Expr) else v
 
     try:
-        return each(number, value)
-    except (ModelError, TypeError):
-        return None
+        stated["nominal"] = each(number, stated["nominal"])
+    except (KeyError, ModelError, TypeError):
+        stated.pop("nominal", None)
 
 
 def _placed(one: Given, part: Component, name: str, raw: Any) -> None:

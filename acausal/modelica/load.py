@@ -12,6 +12,7 @@ from acausal.files import need_path, need_paths
 from acausal.jobs import collection_paused
 from acausal.modelica.build import class_of
 from acausal.modelica.classes import ClassNode
+from acausal.modelica.meanings import Native
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.tree import Tree
 from acausal.modeling import Budget, Component, spending
@@ -67,6 +68,8 @@ def load(
 def _wanted(file: Path, tree: Tree, nodes: list[ClassNode], name: str | None) -> ClassNode:
     """The class that is meant."""
     found = tree.resolve(name) if name is not None else None
+    if isinstance(found, Native):
+        found = tree.text(found.name)
     if not isinstance(found, ClassNode):
         models = [inner for node in nodes for inner in node.models()]
         if name is None:

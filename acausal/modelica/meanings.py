@@ -66,6 +66,11 @@ def refused_package(full: str) -> str:
     return next((f"{shortened(full)}: {reason}" for reason in reasons), "")
 
 
+def is_icon(full: str) -> bool:
+    """Whether this is a class of the library that has a picture alone, as ``Modelica.Blocks.Icons.Block``."""
+    return full.startswith("Modelica.") and ".Icons." in full
+
+
 class Literal(str):
     """The value of an enumeration: the text of its name, and its number.
 
@@ -96,6 +101,9 @@ def unknown_name(node: Any, name: DottedName, what: str) -> str:
 
 def _hint(node: Any, name: DottedName) -> str:
     words = [w for w in name.words if w]
+    above, rest = node.lookup(name.words[:-1]) if len(words) > 1 else (node.parent, words)
+    if hasattr(above, "definition") and not rest and above.names():
+        return nearest(words[-1], above.names())
     if hasattr(node.tree.root(words[0]) or node, "definition"):
         known = [*node.classes, *getattr(node.parent, "classes", ())]
         return f"{nearest(words[-1], known)} {PATH_HINT}" if known else PATH_HINT

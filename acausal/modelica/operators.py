@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import sympy as sp
@@ -16,7 +16,7 @@ from acausal.modelica.syntax import (
     Expression,
     OperatorExpression,
 )
-from acausal.modelica.tokens import PREDEFINED, ModelicaError
+from acausal.modelica.tokens import PREDEFINED, ModelicaError, NumbersNeededError
 from acausal.modelica.values import (
     Absent,
     Record,
@@ -25,6 +25,7 @@ from acausal.modelica.values import (
     is_real,
     is_record,
     type_of,
+    without_index,
 )
 from acausal.modeling import (
     Parameter,
@@ -72,18 +73,23 @@ class Operators(Arithmetic):
 
     Attributes:
         at: of the expression that is being evaluated, for errors.
+        build: of the component whose statement is evaluated; also in the functions that it calls.
     """
 
     max_operations = MAX_OPERATIONS
 
     def __init__(self, frame: Frame) -> None:
-        self.frame = frame
+        self.frame, self.build = frame, frame.build
         self.at = 0
         self.ends: list[int] = []
 
     def wrong(self, reason: str, length: int | None = None) -> Exception:
         """The error at the present place."""
         return self.frame.node.wrong(self.at, reason, length)
+
+    def too_large(self, reason: str, length: int | None = None) -> Exception:
+        """The error for what exceeds a limit, or needs numbers for another reason."""
+        return NumbersNeededError(str(self.wrong(reason, length)))
 
     def value(self, expression: Expression) -> Any:
         """The value of an expression."""
@@ -238,16 +244,26 @@ class Operators(Arithmetic):
 
     def known(self, value: Any, what: str) -> Any:
         """A number or truth value that parameters decide when the model is built."""
-        if isinstance(value, sp.logic.boolalg.Boolean) and not isinstance(value, sp.Symbol):
-            found = value.xreplace({r: self._number_of(r, what) for r in value.free_symbols})
-            if found not in (sp.true, sp.false):
-                raise self.wrong(
-                    f"{what} has to be known when the model is built; this changes with time"
-                )
-            return bool(found)
-        if isinstance(value, sp.Expr):
-            return self._number_of(value, what)
-        return value
+        if not isinstance(value, sp.Basic):
+            return value
+        used: dict[Any, Any] = {}
+        try:
+            found = number_or_truth(value, what, used)
+        except ModelError as error:
+            raise self.wrong(str(error)) from None
+        except TypeError:
+            raise self.wrong(f"{what} is no finite real number here") from None
+        if isinstance(found, sp.Basic):
+            raise self.wrong(
+                f"{what} has to be known when the model is built; this changes with time"
+            )
+        if self.build is not None:
+            self.build.decided[str(value)] = found
+        for symbol in used:
+            owner = symbol.owner.component.__dict__.get("_build")
+            if owner is not None:
+                owner.deciding.setdefault(without_index(symbol.path), {})[str(value)] = value, found
+        return found
 
     def known_array(self, value: Any) -> Any:
         """Numbers of an array that parameters decide when the model is built."""
@@ -260,17 +276,6 @@ class Operators(Arithmetic):
             not (isinstance(s, Reference) and isinstance(s.declaration, Parameter))
             for s in value.free_symbols
         )
-
-    def _number_of(self, value: Any, what: str) -> Any:
-        try:
-            found = evaluated(value, what, {})
-        except ModelError as error:
-            raise self.wrong(str(error)) from None
-        except TypeError:
-            raise self.wrong(f"{what} is no finite real number here") from None
-        if self.frame.build is not None:
-            self.frame.build.decided[str(value)] = found
-        return found
 
     def _choice(self, expression: Choice) -> Any:
         branches: list[tuple[Any, Any]] = []
@@ -306,6 +311,8 @@ class Operators(Arithmetic):
             else:
                 return value if self.known(holds, "the condition of a text") else otherwise
         events = self.frame.events and self.varies(holds)
+        if events and self.frame.calls and holds.has(sp.Eq, sp.Ne):
+            events = False  # a function has no events; nothing can watch for equal numbers
 
         def one(a: Any, b: Any) -> Any:
             if isinstance(a, Record):
@@ -316,3 +323,12 @@ class Operators(Arithmetic):
             return where(holds, self.number(a), self.number(b), events=events)
 
         return each(one, value, otherwise)
+
+
+def number_or_truth(value: sp.Basic, what: str, used: dict[Any, Any]) -> Any:
+    """What parameters make of an expression or a condition; ``used`` are their values, which are added."""
+    if not isinstance(value, sp.logic.boolalg.Boolean) or isinstance(value, sp.Symbol):
+        return evaluated(cast(sp.Expr, value), what, used)
+    symbols = sorted(value.free_symbols, key=str)
+    found = value.xreplace({s: evaluated(cast(sp.Expr, s), what, used) for s in symbols})
+    return bool(found) if found in (sp.true, sp.false) else found

@@ -16,7 +16,6 @@ from acausal.modelica.connectors import connector_class
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.meanings import PATH_HINT, Native, Value
 from acausal.modelica.operators import Frame
-from acausal.modelica.syntax import ClassDefinition
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.tree import Tree
 
@@ -55,7 +54,7 @@ class ModelicaPackage:
 
     def __dir__(self) -> list[str]:
         node = self._node
-        return [*self._members] if node is None else [*names_in(node), *node.view().entries]
+        return [*self._members] if node is None else [*node.names(), *node.view().entries]
 
     def __repr__(self) -> str:
         return f"{self._name}: {', '.join(self.__dir__())}"
@@ -64,12 +63,6 @@ class ModelicaPackage:
 def package_of(node: ClassNode) -> ModelicaPackage:
     """The namespace of a package."""
     return ModelicaPackage(node.full, {}, node)
-
-
-def names_in(node: ClassNode) -> list[str]:
-    """The names of the classes of a package, in the order of the text, its files last."""
-    own = [e.name for e in node.definition.elements if isinstance(e, ClassDefinition)]
-    return [*dict.fromkeys((*own, *node.files))]
 
 
 def import_modelica(

@@ -46,7 +46,8 @@ def check_base(node: Any, clause: Extends, base: Any) -> None:
     kinds = [node.definition.kind, base.definition.kind]
     if kinds[0] != kinds[1] and any(k in APART for k in kinds) and "class" not in kinds:
         words = " extends a ".join(kinds)
-        raise node.wrong(clause.base.at, f"a {words}", len(clause.base.text))
+        reason = f"a {words}, which the language forbids; declare both as one kind"
+        raise node.wrong(clause.base.at, reason, len(clause.base.text))
 
 
 def check_same(node: Any, element: Declared, known: Declared) -> None:

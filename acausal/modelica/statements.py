@@ -174,8 +174,22 @@ def start(component: Component, stated: list[Eq], initial: list[Eq]) -> bool:
     ):  # what is before the start counts
         reference = side.reference if isinstance(side, Previous) else side
         if reference.owner is component._node:
-            component.modify(**{reference.path: Start(values[side])})
+            _give_start(component, reference.path, values[side])
     return bool(values)
+
+
+def _give_start(component: Component, path: str, value: float) -> None:
+    """Give a discrete variable, or one element of an array of such, its start."""
+    name, _, index = path.removesuffix("]").partition("[")
+    start: Any = value
+    if index:
+        stated = component._node.modifiers.get(name)
+        known = stated.value if isinstance(stated, Start) and stated.value is not None else 0
+        shape = np.shape(getattr(component, name))
+        start = np.array(np.broadcast_to(np.asarray(known, dtype=object), shape))
+        start[tuple(int(i) - 1 for i in index.split(","))] = value
+        start = start.tolist()
+    component.modify(**{name: Start(start)})
 
 
 def _jumps(side: Any) -> bool:
@@ -229,4 +243,6 @@ def _target(part: Component, path: str) -> Any:
     connector = part._node.declaration(owner)
     if member is None and isinstance(connector, Connector):
         return of(connector._bind(part._node, owner), name)
-    return as_array(attribute(part, path)) if member is None else member
+    if member is None:
+        member = of(part, path) if path.isidentifier() else as_array(attribute(part, path))
+    return member

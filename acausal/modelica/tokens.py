@@ -37,16 +37,22 @@ class ModelicaError(NetlistError):
     """Modelica text is wrong, or says what is not supported; the message begins with file, line and column."""
 
 
+class NumbersNeededError(ModelicaError):
+    """What Modelica text computes becomes no expression that is small enough; of numbers it could be computed."""
+
+
 @dataclass(frozen=True, eq=False)
 class Source:
     """The text of one file.
 
     Attributes:
         name: of the file, for messages.
+        folder: of the file, where it is known.
     """
 
     name: str
     text: str
+    folder: Path | None = None
 
     def wrong(self, at: int, reason: str, length: int | None = None) -> ModelicaError:
         """The error at a place, with the line and what is meant underlined."""
@@ -75,7 +81,7 @@ def read_source(path: Path) -> Source:
     try:
         if path.stat().st_size > MAX_BYTES:
             raise ModelicaError(f"{path.name}: larger than {MAX_BYTES // 1_000_000} MB")
-        return Source(path.name, path.read_text(encoding="utf-8-sig"))
+        return Source(path.name, path.read_text(encoding="utf-8-sig"), path.resolve().parent)
     except OSError as error:
         raise ModelicaError(f"{path}: cannot be read ({error.strerror})") from None
     except UnicodeDecodeError:

@@ -14,7 +14,7 @@ from typing import Any
 
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import Native, Predefined, Prefix, Value
+from acausal.modelica.meanings import Native, Predefined, Prefix, Value, is_icon
 from acausal.modelica.si_units import ATTRIBUTES, UNITS
 from acausal.modelica.tokens import read_source
 from acausal.modeling import Component
@@ -187,8 +187,8 @@ class Tree:
 
     def knows(self, full: str) -> bool:
         """Whether a name may be that of a package whose text is not given."""
-        above, _, word = full.rpartition(".")
-        if full in PACKAGES or above == "Modelica.Icons":
+        word = full.rpartition(".")[2]
+        if full in PACKAGES or is_icon(full):
             return True
         return word[:1].isupper() and any(
             f"{name}.".startswith(f"{full}.") or f"{full}.".startswith(f"{name}.")

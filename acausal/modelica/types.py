@@ -87,6 +87,10 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
         case Native():
             return Type(native=found.cls, predefined=_signal_kind(found), full=found.name)
         case ClassNode():
+            kind, word = found.definition.kind, declared.type.text
+            if kind in ("package", "function"):
+                reason = f"'{word}' is a {kind}, not a model"
+                raise frame.node.wrong(declared.type.at, reason, len(word))
             reason = refused_package(found.full)
             if reason and found.definition.kind in ("model", "block", "class"):
                 raise frame.node.wrong(declared.type.at, reason, len(declared.type.text))

@@ -212,6 +212,8 @@ def of(value: Any, word: str) -> Any:
             return value.field(word)
         case np.ndarray() if is_record(value):
             return each(lambda v: of(v, word), value)
+        case np.ndarray() if not value.size:
+            return value  # of no parts
         case list() | tuple() if value:
             found = [of(v, word) for v in cast(Sequence[Any], value)]
             return None if any(v is None for v in found) else as_array(found)

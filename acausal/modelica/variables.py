@@ -10,7 +10,7 @@ import sympy as sp
 
 from acausal.modelica import statements
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.library_parts import ModifierValues, grouped, nominal_of
+from acausal.modelica.library_parts import ModifierValues, decide_nominal, grouped
 from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Bound, Modification
 from acausal.modelica.operators import Frame
@@ -68,8 +68,7 @@ def declare(
     declared = _variable(build, name, entry, found, mod, shape, _text(stated.pop("unit", "")))
     build.assign(name, entry, declared)
     start = {k: _value(v) for k, v in stated.items() if k not in ("min", "max")}
-    if "nominal" in start:
-        start["nominal"] = nominal_of(start["nominal"])
+    decide_nominal(start)
     _need_start(found, stated.get("start"), start.get("start"), shape)
     if isinstance(start.get("start"), np.ndarray):
         start["start"] = each(lambda v: int(v) if isinstance(v, bool) else v, start["start"])
@@ -282,7 +281,7 @@ def _value(stated: Any) -> Any:
 
 
 def _text(stated: Any) -> str:
-    value = _value(stated)
-    if isinstance(stated, Bound) and not isinstance(value, str):
+    first, *others = elements(_value(stated))
+    if isinstance(stated, Bound) and not isinstance(first, str):
         raise stated.wrong("a unit is a text")
-    return value
+    return first if all(v == first for v in others) else ""  # an array has one unit here, or none

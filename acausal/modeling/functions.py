@@ -160,6 +160,11 @@ class Floored(sp.Function):
 
     nargs = 2
 
+    @classmethod
+    def eval(cls, *args: sp.Expr) -> Any:
+        """The integer itself, of a number that is known."""
+        return floor(args[0]) if args[0].is_number else None
+
     def _eval_is_real(self) -> bool:
         return True
 

@@ -39,6 +39,10 @@ class Arithmetic:
         """The error at the present place."""
         raise NotImplementedError
 
+    def too_large(self, reason: str) -> Exception:
+        """The error for what exceeds a limit."""
+        return self.wrong(reason)
+
     def relation(self, sign: str, left: Any, right: Any) -> Any:
         """A comparison; of texts and truth values by ``==`` and ``<>`` only."""
         self.count()
@@ -98,7 +102,7 @@ class Arithmetic:
         """Count an operation on parameters, within the limit."""
         self.operations += 1
         if self.operations > self.max_operations:
-            raise self.wrong(f"more than {self.max_operations} operations on parameters")
+            raise self.too_large(f"more than {self.max_operations} operations on parameters")
 
     def number(self, value: Any) -> Any:
         """A value to calculate with; others are refused."""

@@ -170,6 +170,7 @@ def _diagonal(matrix: Any) -> Integers:
     np.maximum.at(largest, entries.row, size)
     with np.errstate(divide="ignore"):
         loss = 1.0 + np.log(largest[entries.row]) - np.log(size)
+    loss = np.rint(1024 * loss)  # whole numbers: rounding lets the matching go on without end
     present = np.isfinite(loss)
     places = entries.row[present], entries.col[present]
     try:

@@ -561,6 +561,23 @@ package Idioms "What public libraries write; each model has a known derivative"
     end when;
   end Counting;
 
+  model Branch "Inflows from the side, of which there may be none; names that begin with an underscore"
+    extends Modelica.Blocks.Icons.Block;
+    connector Inflow
+      input Real q;
+    end Inflow;
+    parameter Integer n = 0;
+    parameter Real area "without a value";
+    parameter Real map[n, 2] = fill(0.5, n, 2);
+    Inflow side[n];
+    Real x(nominal = area);
+  protected
+    Real[2] _spread = {3.0, 4.0} .+ transpose(map)*side.q;
+    Real _weight = 10;
+  equation
+    der(x) = sum(side.q) + _weight*_spread[2]/area;
+  end Branch;
+
   model All
     Buttons buttons;
     Starting starting;
@@ -580,5 +597,6 @@ package Idioms "What public libraries write; each model has a known derivative"
     Tank tank;
     Fast fast;
     Redeclared redeclared;
+    Branch branch(area = 2);
   end All;
 end Idioms;

@@ -2,19 +2,21 @@
 
 import copy
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import jax
 import numpy as np
 import pytest
 
 import acausal as ac
 from acausal.command import main
-from acausal.components import translational as tl
+from acausal.components import neural, translational as tl
 from acausal.modelica import statements
 from acausal.modelica.evaluate import Evaluator
 from acausal.modeling import Reference
-from benchmarks import import_
+from benchmarks import import_, library
 from benchmarks.chain import Chain
 from tests.export.test_modelica import CASES, Vectors
 
@@ -228,6 +230,33 @@ def test_an_export_comes_back(tmp_path: Path, case: str, selfcontained: bool) ->
     assert np.max(np.abs(found - wanted)) < 1e-12
 
 
+@pytest.mark.parametrize("selfcontained", [True, False])
+def test_gradients_of_an_export_are_the_native_ones(tmp_path: Path, selfcontained: bool) -> None:
+    """Of a simulation's loss, with respect to the parameters and to all weights of a network."""
+    law = neural.Compliance(input_scale=0.1, output_scale=5.0, odd=True, width=3, depth=1)
+    ours = ac.compile(CASES["oscillator"][0]().replace("spring_nn", law))
+    params = ours.parameters(1)
+    file = ac.export.modelica(ours, tmp_path / "out.mo", params, selfcontained=selfcontained)
+    again = ac.compile(ac.load(file))
+
+    def loss(system: ac.System, params: Any) -> Any:
+        run = ac.simulate(system, 0.2, dt=0.01, params=params)
+        return jax.numpy.sum(run["mass.s"] ** 2 + 0.1 * run["mass.v"] ** 2)
+
+    found = jax.grad(partial(loss, again))(again.parameters())
+    wanted = jax.grad(partial(loss, ours))(params)
+    layers = wanted.pop("spring_nn.net").net.net
+    for kind in ("weights", "biases"):
+        for layer, array in enumerate(getattr(layers, kind), start=1):
+            for place in np.ndindex(array.shape):
+                index = ",".join(str(i + 1) for i in place)
+                wanted[f"spring_nn.net_1.{kind}_{layer}[{index}]"] = array[place]
+    assert {*found} == {*wanted}
+    scale = max(abs(v) for v in wanted.values())
+    assert scale > 1e-3
+    assert max(abs(found[k] - wanted[k]) for k in found) < 1e-9 * scale
+
+
 def test_attributes_and_constants_of_a_netlist_are_written(tmp_path: Path) -> None:
     source = "Modelica.Electrical.Analog.Sources.SineVoltage"
     netlist = {
@@ -249,3 +278,27 @@ def test_commands_take_a_file_and_a_class_of_it(capsys: pytest.CaptureFixture[st
     assert "RC is right: 20 equations, 1 state" in capsys.readouterr().out
     assert main(["check", f"{TEXTBOOK}:Nope"]) == 3
     assert "there is no model 'Nope'" in capsys.readouterr().err
+
+
+def test_a_benchmark_counts_what_becomes_of_the_models_of_a_library(tmp_path: Path) -> None:
+    (tmp_path / "package.mo").write_text("""package Lib
+      model A Real x(start = 1, fixed = true); equation der(x) = -x; annotation(experiment(StopTime = 2)); end A;
+      model B input Real u; Real x = u; end B;
+      model C Real x = delay(time, 1); end C;
+      partial model D end D;
+      package P model E end E; end P;
+    end Lib;""")
+    found = [*library.names(tmp_path, examples=False)]
+    assert found == ["Lib.A", "Lib.B", "Lib.C", "Lib.P.E"]
+    assert [*library.names(tmp_path, examples=True)] == ["Lib.A"]
+    columns = [library.outcome(tmp_path, name, [])[0] for name in found[:3]]
+    assert columns == ["simulated", "simulated", "refused"]
+
+
+def test_a_class_that_the_library_has_is_loaded_from_its_text(tmp_path: Path) -> None:
+    """A package of the standard library's name has its own text, which is what is asked for."""
+    (tmp_path / "package.mo").write_text("""package Modelica package Blocks package Math
+      block Gain parameter Real k = 3; input Real u; output Real y = k*u; end Gain;
+    end Math; end Blocks; end Modelica;""")
+    model = ac.load(tmp_path, "Modelica.Blocks.Math.Gain")
+    assert ac.compile(model).parameters() == {"k": 3.0}
