@@ -88,7 +88,8 @@ def _shape(templates: Templates, owner: Component, stated: Any) -> EquationShape
 
 def _equation(templates: Templates, shape: EquationShape, members: Integers) -> EquationGroup:
     """An equation as a template's residual, for all members."""
-    return _fill(templates, templates.of(shape), Origin(Eq(*shape.sides), shape.owner), members)
+    stated = Eq(*shape.sides).stated_in(shape.place)
+    return _fill(templates, templates.of(shape), Origin(stated, shape.owner), members)
 
 
 def _update(

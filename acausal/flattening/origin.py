@@ -35,6 +35,11 @@ class Origin(LeavesCaches):
         """The class that states it."""
         return "" if self.owner is None else type(self.owner).__name__
 
+    @property
+    def place(self) -> str:
+        """The line of a file where it is stated, as far as that is known."""
+        return "" if isinstance(self.stated, str) else self.stated.place
+
     @cached_property
     def text(self) -> str:
         """The equation as its author wrote it."""

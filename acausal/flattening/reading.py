@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from inspect import isgenerator
 from pathlib import Path
 from typing import Any
 
@@ -33,9 +34,11 @@ def read_statements(
     """
     found: list[Any] = []
     try:
-        for equation in equations():
+        stated = iter(equations())
+        for equation in stated:
             charge("equations", instances, component._node)
-            found.append(equation)
+            known = not isinstance(equation, Eq) or equation.place
+            found.append(equation if known else equation.stated_in(_yielded_at(stated)))
         return found
     except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
         if isinstance(error, AttributeError) and not _is_sympys(error):
@@ -49,6 +52,16 @@ def read_statements(
         if component._node.label in str(error):
             raise
         raise DeclarationError(f"{component._node.label}{_line(error)}: {error}") from None
+
+
+def _yielded_at(stated: Iterator[Any]) -> str:
+    """The line of the user's file that has just yielded; empty where it is one of acausal's, or not known."""
+    while isgenerator(stated) and isgenerator(stated.gi_yieldfrom):
+        stated = stated.gi_yieldfrom
+    frame = stated.gi_frame if isgenerator(stated) else None
+    if frame is None or str(frame.f_globals.get("__name__")).startswith("acausal."):
+        return ""
+    return f"line {frame.f_lineno} of {Path(frame.f_code.co_filename).name}"
 
 
 def _is_sympys(error: Exception) -> bool:

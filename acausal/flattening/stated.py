@@ -110,9 +110,9 @@ def _always_watched(stated: Any) -> bool:
 def without_events(equation: Eq) -> Eq:
     """The equation as it stands, its conditions not watched."""
     sides = (number_or_truth(equation.lhs), number_or_truth(equation.rhs))
-    if not any(s.has(Watched, Floored) for s in sides):
-        return Eq(*sides)
-    return Eq(*(literal(s) for s in sides))
+    if any(s.has(Watched, Floored) for s in sides):
+        sides = (literal(sides[0]), literal(sides[1]))
+    return Eq(*sides).stated_in(equation.place)
 
 
 def with_events(component: Component, stated: Sequence[Any]) -> Stated:
@@ -165,9 +165,9 @@ class _Sorting:
 
     def _continuous(self, equation: Eq) -> Eq:
         sides = [number_or_truth(s) for s in (equation.lhs, equation.rhs)]
-        if not any(s.has(Watched, Floored, Previous, Tick) for s in sides):
-            return Eq(*sides)
-        return Eq(*(self._held(self._cases(side)) for side in sides))
+        if any(s.has(Watched, Floored, Previous, Tick) for s in sides):
+            sides = [self._held(self._cases(side)) for side in sides]
+        return Eq(*sides).stated_in(equation.place)
 
     def _held(self, expression: Any) -> Any:
         """What holds between events: values before an event, and clocks, become variables."""

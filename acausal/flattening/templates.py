@@ -66,7 +66,7 @@ class EquationShape:
         tree: what is left of the sides; a reference is its place in ``references``, a number that in ``numbers``.
         numbers: each once, without its sign; of a long sum those of all terms, with signs.
         references: each with the way to its owner. where: how messages call the equation.
-        is_sum: whether it is a long sum.
+        is_sum: whether it is a long sum. place: where it is stated.
     """
 
     owner: Component
@@ -76,6 +76,7 @@ class EquationShape:
     references: dict[Reference, tuple[str, ...]]
     where: Callable[[], str]
     is_sum: bool
+    place: str
 
     @cached_property
     def key(self) -> Hashable:
@@ -166,7 +167,8 @@ class Templates:
             trees, given = _trees_of_sums(sums, place)
         else:
             trees, given = tuple([tree(side, True, True) for side in sides]), tuple(numbers)
-        return EquationShape(owner, sides, trees, given, found, where, bool(sums))
+        stated_in = stated.place if isinstance(stated, Eq) else ""
+        return EquationShape(owner, sides, trees, given, found, where, bool(sums), stated_in)
 
     def count(self, shape: EquationShape) -> None:
         """Count the numbers of an equation as a variant of its shape."""

@@ -68,7 +68,7 @@ def _oriented(stated: list[Any], build: Any) -> Iterator[Any]:
     for one in stated:
         if _gives_either(one) and given[one.lhs] > 1 and not given[one.rhs]:
             given.update({one.lhs: -1, one.rhs: 1})
-            one = Eq(one.rhs, one.lhs)
+            one = Eq(one.rhs, one.lhs).stated_in(one.place)
         yield one
 
 
@@ -96,9 +96,15 @@ def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
                 if isinstance(one, Branches) and one.word == "when":
                     raise node.wrong(one.at, "'when' does not stand in initial equations")
         if kind == equations:
-            yield from SectionReader(build.frame(node)).stated(stated)
+            reader = SectionReader(build.frame(node))
+            yield from (_placed(one, node, reader.at) for one in reader.stated(stated))
         elif kind == algorithms:
             yield from AlgorithmReader(build.frame(node)).algorithm(stated)
+
+
+def _placed(one: Any, node: Any, at: int) -> Any:
+    """What is stated, with its line if it is an equation."""
+    return one.stated_in(node.source.place(at)) if isinstance(one, Eq) else one
 
 
 def connect(build: Any) -> None:
@@ -232,7 +238,8 @@ def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
     target, value = _target(part, path), bound.value()
     for one in elements(value):
         reader.need_type(type_of(elements(target)[0]) if np.size(target) else "", one)
-    yield from reader.pairs(target, value)
+    at = bound.expression.at
+    yield from (_placed(one, bound.frame.node, at) for one in reader.pairs(target, value))
 
 
 def _target(part: Component, path: str) -> Any:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from acausal.netlist import MAX_BYTES, Grammar, NetlistError
@@ -53,6 +55,14 @@ class Source:
     name: str
     text: str
     folder: Path | None = None
+
+    @cached_property
+    def _ends(self) -> list[int]:
+        return [found.start() for found in re.finditer("\n", self.text)]
+
+    def place(self, at: int) -> str:
+        """The line of a place, for messages."""
+        return f"line {bisect_left(self._ends, at) + 1} of {self.name}"
 
     def wrong(self, at: int, reason: str, length: int | None = None) -> ModelicaError:
         """The error at a place, with the line and what is meant underlined."""

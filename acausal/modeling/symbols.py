@@ -8,7 +8,8 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, field
 from itertools import count
 from typing import Any, Protocol
 
@@ -252,14 +253,23 @@ class ModuleReference:
 
 @dataclass(frozen=True)
 class Eq:
-    """An equation ``lhs = rhs`` between expressions."""
+    """An equation ``lhs = rhs`` between expressions; ``place`` is where it is stated, as far as that is known."""
 
     lhs: sp.Expr
     rhs: sp.Expr
+    place: str = field(default="", compare=False, repr=False)
 
     def __init__(self, lhs: Any, rhs: Any) -> None:
         object.__setattr__(self, "lhs", _side(lhs, "an equation's left side"))
         object.__setattr__(self, "rhs", _side(rhs, "an equation's right side"))
+
+    def stated_in(self, place: str) -> Eq:
+        """The same, stated in a line of a file."""
+        if not place:
+            return self
+        found = copy(self)
+        object.__setattr__(found, "place", place)
+        return found
 
     def __str__(self) -> str:
         return f"{self.lhs} = {self.rhs}"

@@ -12,6 +12,9 @@ from acausal.modeling import Component, Eq, Potential
 from acausal.structure import graph
 from acausal.structure.equations import Equations
 
+MOST_LINES = 6
+"""Lines of a file that are named."""
+
 
 def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]) -> str | None:
     """A sentence about a structurally singular model, or None for a sound one.
@@ -54,7 +57,21 @@ def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]
     remedy = (missing and forgotten_equations(model)) or _remedy(bool(missing), excess, floating)
     if is_set := inputs_that_are_set(model, (*surplus, *aliases.redundant)):
         remedy = f"{is_set} {remedy}"
-    return "; ".join(parts) + f". {remedy}"
+    places = [o.place for o, _ in (*surplus, *aliases.redundant, *related)]
+    return "; ".join(parts) + f". {remedy}{_seen_in(places)}"
+
+
+def _seen_in(places: Sequence[str]) -> str:
+    """A sentence on the lines of files in which equations are stated, or nothing."""
+    lines: dict[str, list[str]] = {}
+    for place in filter(None, dict.fromkeys(places)):
+        line, _, file = place.partition(" of ")
+        lines.setdefault(file, []).append(line.removeprefix("line "))
+    found = [
+        f"line{'s' * (len(own) > 1)} {', '.join(own[:MOST_LINES])} of {file}"
+        for file, own in lines.items()
+    ]
+    return f" See {'; '.join(found)}." if found else ""
 
 
 def _is_potential(model: FlatModel, node: int) -> bool:

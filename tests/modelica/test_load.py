@@ -133,6 +133,15 @@ def test_the_last_model_is_meant_or_one_by_its_name(tmp_path: Path) -> None:
         ac.load(file, 3)  # type: ignore[arg-type]
 
 
+def test_lines_of_the_text_are_named_where_equations_do_not_fit(tmp_path: Path) -> None:
+    file = tmp_path / "Bad.mo"
+    file.write_text(
+        "model Bad\n  Real x(start=1), y = 3*x;\nequation\n  der(x) = -x;\n  y = 2*x;\nend Bad;\n"
+    )
+    with pytest.raises(ac.StructureError, match=r"See lines 2, 4, 5 of Bad\.mo\."):
+        ac.compile(ac.load(file))
+
+
 def test_earlier_names_of_the_standard_library(tmp_path: Path) -> None:
     file = tmp_path / "old.mo"
     file.write_text("""model Old

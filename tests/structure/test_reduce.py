@@ -1,9 +1,11 @@
 """Index reduction, choice of states, loops and diagnosis, judged by the flat equations themselves."""
 
 import cProfile
+import inspect
 import itertools
 import pstats
 import re
+from pathlib import Path
 
 import equinox as eqx
 import jax
@@ -666,3 +668,33 @@ def test_index_reduction_of_a_rigid_chain_takes_time_in_proportion_to_its_length
     calls(120)  # fills caches
     found = [calls(n) for n in (120, 240, 480)]
     assert found[2] - found[1] == pytest.approx(2 * (found[1] - found[0]), rel=0.1)
+
+
+class StatedTwice(ac.Component):
+    """A model in lines of this file."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.x, self.y = ac.Variable(), ac.Variable()
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), -self.x)
+        yield from self.further()
+
+    def further(self):
+        yield ac.Eq(self.y, 2 * self.x)
+        yield ac.Eq(self.y, 3 * self.x)
+
+
+def test_lines_of_equations_that_do_not_fit_are_named() -> None:
+    lines, first = inspect.getsourcelines(StatedTwice)
+    places = {
+        text: first + k
+        for k, line in enumerate(lines)
+        for text in ("-self.x", "2 *", "3 *")
+        if text in line
+    }
+    file = Path(__file__).name
+    expected = f"See lines {places['3 *']}, {places['-self.x']}, {places['2 *']} of {file}."
+    with pytest.raises(ac.StructureError, match=re.escape(expected)):
+        ac.compile(StatedTwice())
