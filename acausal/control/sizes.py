@@ -64,18 +64,21 @@ def sizes(
     units = np.where(np.isfinite(spans), spans, 0.0)
     found = np.abs(x)
     off = goal
-    if len(x) <= MANY:
-        parts = linearized(t, x, still, given[:, 0])
-        rates, seen, a, b, c, d = (np.asarray(part) for part in parts)
-        free, forced = _responses(a, b, rates.ravel(), dt, goal.shape[1])
-        off = goal - seen - c @ free
-        moved = np.abs(c @ forced + d[..., None].transpose(1, 0, 2)).max(axis=(1, 2), initial=0.0)
-        far = np.abs(off).max(initial=0.0)
-        needed = np.where(moved > 0, far / np.where(moved > 0, moved, 1.0), 0.0)
-        units = np.where(units > 0, units, needed)
-        reach = np.abs(forced).max(axis=2) * units[:, None]
-        found = np.maximum(found, np.abs(x + free.T).max(axis=0))
-        found = np.maximum(found, reach.max(axis=0, initial=0.0))
+    parts = linearized(t, x, still, given[:, 0]) if len(x) <= MANY else ()
+    parts = [np.asarray(part) for part in parts]
+    if parts and all(np.isfinite(part).all() for part in parts):
+        rates, seen, a, b, c, d = parts
+        with np.errstate(all="ignore"):  # what runs away tells nothing
+            free, forced = _responses(a, b, rates.ravel(), dt, goal.shape[1])
+            off = goal - seen - c @ free
+            moves = np.abs(c @ forced + d[..., None].transpose(1, 0, 2)).max(
+                axis=(1, 2), initial=0.0
+            )
+            needed = np.abs(off).max(initial=0.0) / np.where(moves > 0, moves, np.inf)
+            units = np.where(units > 0, units, needed)
+            reach = np.abs(forced).max(axis=2) * units[:, None]
+            found = np.maximum(found, np.abs(x + free.T).max(axis=0))
+            found = np.maximum(found, reach.max(axis=0, initial=0.0))
     cost = np.array([*goals.track.values()]) @ np.sum(off**2, axis=1)
     cost += goal.shape[1] * np.array([*goals.effort.values()]) @ units**2
     return Sizes(*(np.where(np.isfinite(size), size, 0.0) for size in (found, units, cost)))
@@ -89,16 +92,11 @@ def _responses(
     steps: int,
 ) -> tuple[Float[np.ndarray, "n steps"], Float[np.ndarray, "m n steps"]]:
     """How far a linear model moves from where it has these rates, and by a unit of each input more."""
-    n = len(rates)
-    with np.errstate(all="ignore"):
-        moves = expm(
-            dt
-            * np.block([[a, rates[:, None], b], [np.zeros((1 + b.shape[1], n + 1 + b.shape[1]))]])
-        )
-        state = np.zeros((n, 1 + b.shape[1]))
-        path = []
-        for _ in range(steps):
-            state = moves[:n, :n] @ state + moves[:n, n:]
-            path.append(state)
+    n, held = len(rates), np.zeros((1 + b.shape[1], len(rates) + 1 + b.shape[1]))
+    moves = expm(dt * np.block([[a, rates[:, None], b], [held]]))
+    path, state = [], np.zeros((n, 1 + b.shape[1]))
+    for _ in range(steps):
+        state = moves[:n, :n] @ state + moves[:n, n:]
+        path.append(state)
     whole = np.stack(path, axis=2)
     return whole[:, 0], whole[:, 1:].transpose(1, 0, 2)

@@ -89,7 +89,7 @@ def in_pieces(
         known = np.all([np.isfinite(data[n]) for n in begin], axis=0) | np.zeros(len(t), bool)
         for first, last in pairwise(ends):
             inside = (t >= first) & ((t < last) | (last == t[-1]))
-            own = t[inside][np.argmax(known[inside]) :] if inside.any() else t[:0]
+            own = t[inside][np.argmax(known[inside]) :] if known[inside].any() else t[:0]
             if len(own) >= LEAST // 2:
                 piece = data.between(own[0], own[-1])
                 found[name if len(ends) == 2 else f"{whole} from {own[0]:g} s"] = piece
