@@ -19,7 +19,7 @@ from jaxtyping import Float
 import acausal.simulation as simulation
 from acausal._jax import check_time, is_number, is_real
 from acausal.control.goals import Goals, Limits, Weights
-from acausal.control.sizes import Sizes, sizes
+from acausal.control.sizes import TypicalSizes, sizes
 from acausal.control.transcription import METHODS, NonlinearProgram, program
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, need_compiled, need_whole, shown, user_level
@@ -162,8 +162,8 @@ class MPC:
         """Forget the last plan, and what was typical: the next one starts where the state stays as it is."""
         self._last: Float[np.ndarray, " n"] | None = None
         self._sent = np.zeros(len(self.goals.decided))
-        self._seen: Sizes | None = None
-        self._size: Sizes | None = None
+        self._seen: TypicalSizes | None = None
+        self._size: TypicalSizes | None = None
 
     def step(
         self,

@@ -14,7 +14,7 @@ MANY = 300
 """Of models with more states, nothing but what is given tells their sizes."""
 
 
-class Sizes(NamedTuple):
+class TypicalSizes(NamedTuple):
     """Typical sizes; 0 where nothing tells.
 
     Attributes:
@@ -26,15 +26,15 @@ class Sizes(NamedTuple):
     inputs: Float[np.ndarray, " m"]
     cost: Float[np.ndarray, ""]
 
-    def with_earlier(self, earlier: Sizes | None) -> Sizes:
+    def with_earlier(self, earlier: TypicalSizes | None) -> TypicalSizes:
         """The larger of both: what has come to rest keeps its size."""
-        return self if earlier is None else Sizes(*map(np.maximum, self, earlier))
+        return self if earlier is None else TypicalSizes(*map(np.maximum, self, earlier))
 
-    def filled(self, nominal: Float[np.ndarray, " n_states"]) -> Sizes:
+    def filled(self, nominal: Float[np.ndarray, " n_states"]) -> TypicalSizes:
         """All above zero."""
         usual = nominal, np.ones_like(self.inputs), np.ones(())
         pairs = zip(self, usual, strict=True)
-        return Sizes(*(np.where(own > 0, own, other) for own, other in pairs))
+        return TypicalSizes(*(np.where(own > 0, own, other) for own, other in pairs))
 
     @property
     def numbers(self) -> Float[np.ndarray, " n"]:
@@ -50,8 +50,8 @@ def sizes(
     goal: Float[np.ndarray, "n_tracked n"],
     given: Float[np.ndarray, "n_given n"],
     dt: float,
-) -> Sizes:
-    """Sizes from what the linearized model does over the horizon, freely and when its inputs jump.
+) -> TypicalSizes:
+    """TypicalSizes from what the linearized model does over the horizon, freely and when its inputs jump.
 
     Arguments:
         linearized: a CasADi function from ``t, x``, decided and given inputs to ``der(x)``, the tracked variables,
@@ -81,7 +81,7 @@ def sizes(
             found = np.maximum(found, reach.max(axis=0, initial=0.0))
     cost = np.array([*goals.track.values()]) @ np.sum(off**2, axis=1)
     cost += goal.shape[1] * np.array([*goals.effort.values()]) @ units**2
-    return Sizes(*(np.where(np.isfinite(size), size, 0.0) for size in (found, units, cost)))
+    return TypicalSizes(*(np.where(np.isfinite(size), size, 0.0) for size in (found, units, cost)))
 
 
 def _responses(

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.control.goals import Goals
-from acausal.control.sizes import Sizes
+from acausal.control.sizes import TypicalSizes
 
 DEGREE = 3
 """Collocation points of an interval: Radau's method of order five, for stiff models, too."""
@@ -65,7 +65,9 @@ class NonlinearProgram:
     widths: tuple[int, ...]
     steps: int
 
-    def start(self, x: Float[np.ndarray, " n_states"], size: Sizes) -> Float[np.ndarray, " n"]:
+    def start(
+        self, x: Float[np.ndarray, " n_states"], size: TypicalSizes
+    ) -> Float[np.ndarray, " n"]:
         """Unknowns where the state stays as it is."""
         m, states, slacks = self.widths
         low, high = self._inputs(size).T
@@ -73,7 +75,7 @@ class NonlinearProgram:
         still = np.tile(x / size.states, self.steps * states // len(x))
         return np.concatenate([inputs, still, np.zeros(slacks * self.steps)])
 
-    def bounds(self, size: Sizes) -> dict[str, Float[np.ndarray, " n"]]:
+    def bounds(self, size: TypicalSizes) -> dict[str, Float[np.ndarray, " n"]]:
         """Lowest and highest values of the unknowns, and of what is constrained."""
         goals, steps = self.goals, self.steps
         _, states, slacks = self.widths
@@ -89,11 +91,11 @@ class NonlinearProgram:
             "ubg": np.concatenate([zero, open_, most]),
         }
 
-    def _inputs(self, size: Sizes) -> Float[np.ndarray, "m 2"]:
+    def _inputs(self, size: TypicalSizes) -> Float[np.ndarray, "m 2"]:
         return np.array([self.goals.ends(n) for n in self.goals.decided]) / size.inputs[:, None]
 
     def shifted(
-        self, unknowns: Float[np.ndarray, " n"], before: Sizes, size: Sizes
+        self, unknowns: Float[np.ndarray, " n"], before: TypicalSizes, size: TypicalSizes
     ) -> Float[np.ndarray, " n"]:
         """One sample later, in other sizes; the last sample is repeated."""
         blocks = np.split(unknowns, np.cumsum(np.array(self.widths) * self.steps)[:-1])
@@ -114,7 +116,7 @@ def program(
     method: str,
     iterations: int,
 ) -> NonlinearProgram:
-    """The program of a horizon; its parameters are state, time, last inputs, references, given inputs and `Sizes`.
+    """The program of a horizon; its parameters: state, time, last inputs, references, given inputs, and typical sizes.
 
     Arguments:
         model: a CasADi function from ``t, x, u`` to ``der(x)`` and the observed variables.
