@@ -63,8 +63,9 @@ LEVELS = np.logspace(-4, 2, 9)
 FAINT = 1e-3
 """The noise of a sensor whose samples show none, relative to the standard deviation of its signal."""
 
-RUN_AWAY = 1e3
-"""Where the model without corrections shows so many times more than what is measured, it is unstable."""
+RUN_AWAY, GROWS = 1e3, 10.0
+"""Where the model without corrections shows so many times more than what is measured, it is unstable; and states run
+away that pass so many times as much in the second half of the record."""
 
 FAR = 7.0
 """Noise is fitted within so many powers of e around where that begins."""
@@ -315,13 +316,13 @@ def _lay_out(
 def _sizes(path: AlongRecord, start: Values, measured: Measured) -> Float[Array, " n_states"]:
     """Half of the range that each state passes without corrections; its nominal value where that tells nothing.
 
-    Of a model that runs away it is the part that the sensors show of their range.
+    Of states that run away it is the part that the sensors show of their range.
     """
     (x, shown), nominal = _open_loop(path, start), jnp.asarray(path.model.system.nominal)
-    half = (jnp.max(x, axis=0) - jnp.min(x, axis=0)) / 2
+    early, late, whole = (jnp.ptp(part, axis=0) for part in (*jnp.array_split(x, 2), x))
     seen = jnp.max(jnp.abs(measured.y), axis=0)
     far = jnp.max(jnp.where(seen > 0, jnp.max(jnp.abs(shown), axis=0) / seen, 0.0))
-    half = half / jnp.where(far > RUN_AWAY, far, 1.0)
+    half = whole / 2 / jnp.where((far > RUN_AWAY) & (late > GROWS * early), far, 1.0)
     good = jnp.isfinite(half) & (half > 0)
     guesses = slice(path.model.system.reduced.n_independent, None)  # of loops: they follow
     return jax.lax.stop_gradient(jnp.where(good, half, nominal).at[guesses].set(0.0))

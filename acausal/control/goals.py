@@ -56,9 +56,11 @@ class Goals:
         return float(low), float(high)
 
     def size(self, name: str) -> float:
-        """What counts as large: the distance of the limits, else 1."""
+        """What counts as large: the distance of the limits, or from zero of the only one, else 1."""
         low, high = self.ends(name)
-        return high - low if np.isfinite(high - low) else 1.0
+        if np.isfinite(high - low):
+            return high - low
+        return abs(next((end for end in (low, high) if np.isfinite(end)), 0.0)) or 1.0
 
     def check(self, system: System) -> None:
         """Check names and numbers.

@@ -11,7 +11,13 @@ from scipy.linalg import expm
 from acausal.control.goals import Goals
 
 MANY = 300
-"""Of models with more states, nothing but what is given tells their sizes."""
+"""Of models with more states, nothing but where they are tells their sizes."""
+
+GROWN = 100.0
+"""So far an unstable mode may grow in what is asked of the linearized model."""
+
+ROUNDOFF = 1e-9
+"""An input that moves a variable by less than this part of what another one does moves it by roundoff."""
 
 
 class TypicalSizes(NamedTuple):
@@ -62,41 +68,51 @@ def sizes(
     limits = np.array([goals.ends(name) for name in goals.decided])
     still, spans = np.clip(0.0, *limits.T), limits[:, 1] - limits[:, 0]
     units = np.where(np.isfinite(spans), spans, 0.0)
-    found = np.abs(x)
-    off = goal
-    parts = linearized(t, x, still, given[:, 0]) if len(x) <= MANY else ()
-    parts = [np.asarray(part) for part in parts]
-    if parts and all(np.isfinite(part).all() for part in parts):
-        rates, seen, a, b, c, d = parts
-        with np.errstate(all="ignore"):  # what runs away tells nothing
-            free, forced = _responses(a, b, rates.ravel(), dt, goal.shape[1])
-            off = goal - seen - c @ free
-            moves = np.abs(c @ forced + d[..., None].transpose(1, 0, 2)).max(
-                axis=(1, 2), initial=0.0
-            )
-            needed = np.abs(off).max(initial=0.0) / np.where(moves > 0, moves, np.inf)
-            units = np.where(units > 0, units, needed)
-            reach = np.abs(forced).max(axis=2) * units[:, None]
-            found = np.maximum(found, np.abs(x + free.T).max(axis=0))
-            found = np.maximum(found, reach.max(axis=0, initial=0.0))
-    cost = np.array([*goals.track.values()]) @ np.sum(off**2, axis=1)
-    cost += goal.shape[1] * np.array([*goals.effort.values()]) @ units**2
+    found, off, efforts = np.abs(x), goal, np.array([*goals.effort.values()])
+    rows = given.T if len(x) <= MANY else given.T[:0]
+    rows = rows if (rows != rows[:1]).any() else rows[:1]
+    parts = [
+        [np.asarray(part) for part in linearized(t + k * dt, x, still, row)]
+        for k, row in enumerate(rows)
+    ]
+    if parts and all(np.isfinite(part).all() for own in parts for part in own):
+        _, seen, a, b, c, d = parts[0]
+        rates = np.hstack([own[0] for own in parts] + [parts[-1][0]] * (goal.shape[1] - len(parts)))
+        free, forced = _responses(a, b, rates, dt)
+        off = goal[:, : free.shape[1]] - seen - c @ free
+        moves = np.abs(c @ forced + d.T[:, :, None]).max(axis=2)  # (m, n_tracked)
+        moves = np.where(moves > ROUNDOFF * moves.max(axis=0, initial=0.0), moves, 0.0)
+        far = np.abs(off).max(axis=1, initial=0.0)
+        asked = (moves > 0) & (far > 0)
+        needed = np.where(asked, far / np.where(asked, moves, 1.0), np.inf).min(axis=1)
+        units = np.where(units > 0, units, np.where(np.isfinite(needed), needed, 0.0))
+        reach = np.abs(forced).max(axis=2) * units[:, None]
+        found = np.maximum(found, np.abs(x + free.T).max(axis=0))
+        found = np.maximum(found, reach.max(axis=0, initial=0.0))
+    cost = np.array([*goals.track.values()]) @ np.mean(off**2, axis=1)
+    cost = goal.shape[1] * (cost if cost > 0 else efforts @ units**2)
     return TypicalSizes(*(np.where(np.isfinite(size), size, 0.0) for size in (found, units, cost)))
 
 
 def _responses(
     a: Float[np.ndarray, "n n"],
     b: Float[np.ndarray, "n m"],
-    rates: Float[np.ndarray, " n"],
+    rates: Float[np.ndarray, "n steps"],
     dt: float,
-    steps: int,
-) -> tuple[Float[np.ndarray, "n steps"], Float[np.ndarray, "m n steps"]]:
-    """How far a linear model moves from where it has these rates, and by a unit of each input more."""
-    n, held = len(rates), np.zeros((1 + b.shape[1], len(rates) + 1 + b.shape[1]))
-    moves = expm(dt * np.block([[a, rates[:, None], b], [held]]))
+) -> tuple[Float[np.ndarray, "n k"], Float[np.ndarray, "m n k"]]:
+    """How far a linear model moves from where it has these rates, and by a unit of each input more.
+
+    Of an unstable one, over the first k samples, until its fastest mode has grown as `GROWN` says.
+    """
+    n, steps = rates.shape
+    fastest = float(np.linalg.eigvals(a).real.max(initial=0.0))
+    if fastest * dt * steps > np.log(GROWN):
+        steps = max(1, int(np.log(GROWN) / (fastest * dt)))
+    both = expm(dt * np.block([[a, np.eye(n)], [np.zeros((n, 2 * n))]]))
+    over, held = both[:n, :n], both[:n, n:]
     path, state = [], np.zeros((n, 1 + b.shape[1]))
-    for _ in range(steps):
-        state = moves[:n, :n] @ state + moves[:n, n:]
+    for k in range(steps):
+        state = over @ state + held @ np.hstack([rates[:, k : k + 1], b])
         path.append(state)
     whole = np.stack(path, axis=2)
     return whole[:, 0], whole[:, 1:].transpose(1, 0, 2)

@@ -97,17 +97,22 @@ class ModelicaModel(Component):
         known = self._node.modifiers
         saved = dict(known)
         super().modify(**modifiers)
-        for name in modifiers:
-            for text, (expression, before) in self._build.deciding.get(name, {}).items():
-                now = number_or_truth(expression, f"'{name}'", {})
-                if now != before:
-                    known.clear()
-                    known.update(saved)
-                    how = f"ac.import_modelica(...).{type(self).__name__}({name}=...)"
-                    raise DeclarationError(
-                        f"'{name}' decided a structure when the text was read: '{shortened(text)}' was {before} and "
-                        f"would be {now}; give it when the component is made: {how}"
-                    )
+        try:
+            for name in modifiers:
+                self._need_its_structure(name)
+        except DeclarationError:
+            known.clear()
+            known.update(saved)
+            raise
+
+    def _need_its_structure(self, name: str) -> None:
+        for text, (expression, before) in self._build.deciding.get(name, {}).items():
+            if (now := number_or_truth(expression, f"'{name}'", {})) != before:
+                how = f"ac.import_modelica(...).{type(self).__name__}({name}=...)"
+                raise DeclarationError(
+                    f"'{name}' decided a structure when the text was read: '{shortened(text)}' was {before} and "
+                    f"would be {now}; give it when the component is made: {how}"
+                )
 
     def equations(self) -> Iterator[Any]:
         """The equations of the text, and those of variables that are given a value."""

@@ -104,7 +104,7 @@ def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
 
 def _placed(one: Any, node: Any, at: int) -> Any:
     """What is stated, with its line if it is an equation."""
-    return one.stated_in(node.source.place(at)) if isinstance(one, Eq) else one
+    return one.stated_in(node.source.place(at)) if at and isinstance(one, Eq) else one
 
 
 def connect(build: Any) -> None:
@@ -186,12 +186,12 @@ def start(component: Component, stated: list[Eq], initial: list[Eq]) -> bool:
 
 def _give_start(component: Component, path: str, value: float) -> None:
     """Give a discrete variable, or one element of an array of such, its start."""
-    name, _, index = path.removesuffix("]").partition("[")
+    name, _, index = path[:-1].rpartition("[") if path.endswith("]") else (path, "", "")
     start: Any = value
     if index:
         stated = component._node.modifiers.get(name)
         known = stated.value if isinstance(stated, Start) and stated.value is not None else 0
-        shape = np.shape(getattr(component, name))
+        shape = np.shape(attribute(component, name))
         start = np.array(np.broadcast_to(np.asarray(known, dtype=object), shape))
         start[tuple(int(i) - 1 for i in index.split(","))] = value
         start = start.tolist()

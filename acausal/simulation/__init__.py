@@ -22,8 +22,10 @@ from acausal.simulation.inputs import (
 from acausal.simulation.log import Log as Log
 from acausal.simulation.motion import has_shapes as has_shapes
 from acausal.simulation.newton import (
+    GROWS as GROWS,
     KAPPA as KAPPA,
     LEAST as LEAST,
+    OF_STALL as OF_STALL,
     SLOW as SLOW,
     STAGE_STEPS as STAGE_STEPS,
     STAGE_TOLERANCE as STAGE_TOLERANCE,

@@ -36,10 +36,13 @@ SHORTEST = 1e-4
 STAGE_TOLERANCE = {"float64": 1e-9, "float32": 1e-5}
 """Tolerance of the state in the equations of fixed steps, relative and absolute, by precision."""
 
-STALLS = 0.9
-"""The ratio of what two corrections leave of the equation beyond which only roundoff is left, if they are tolerated."""
+STALLS, GROWS = 0.9, 10.0
+"""Between these ratios of what two corrections leave of the equation, only roundoff is left, if they are tolerated."""
 
-LEAST = {"float64": 1e-30, "float32": 1e-12}
+OF_STALL = 0.3
+"""The part of such a correction that may remain as error."""
+
+LEAST = {"float64": 1e-30, "float32": 1e-8}
 """States of fixed steps are found to the tolerance relative to their own size down to this, as far as roundoff lets."""
 
 STAGE_STEPS = 100
@@ -69,7 +72,8 @@ class Patience(NamedTuple):
         most: corrections at most. diverges: the ratio of two corrections from which on it is given up.
         renews: whether the matrix is renewed where corrections shrink slowly.
         damps: whether it begins again with shorter corrections where it fails.
-        least: the absolute tolerance while corrections still shrink, by precision; ``None`` for that of the tolerances.
+        least: the size of states, by precision, down to which corrections are relative to it while they still shrink;
+            ``None`` where they are what the tolerances say.
     """
 
     most: int
@@ -81,15 +85,15 @@ class Patience(NamedTuple):
     def size(self, tolerances: Tolerances, change: State, *states: State) -> Float[Array, ""]:
         """That of a correction, or of what it leaves of the equation, while these still shrink."""
         if self.least is not None:
-            atol = jnp.asarray(self.least[change.dtype.name], change.dtype)
-            tolerances = Tolerances(tolerances.rtol, atol)
+            least = tolerances.rtol * self.least[change.dtype.name]
+            tolerances = Tolerances(tolerances.rtol, least)
         return tolerances.size(change, *states)
 
-    def ends(self, size: Array, tolerated: Array, stalls: Array, rate: Array, left: Any) -> Array:
-        """Whether a correction was the last: it is small, or tolerated where the iteration stalls."""
-        enough = jnp.minimum(1.0, rate)
-        small = (size == 0) | (size * enough < left)
-        return small if self.least is None else small | (stalls & (tolerated * enough < left))
+    def stalls(self, tolerated: Array, ratio: Array, left: Any) -> Array:
+        """Whether a correction was the last, as roundoff is left of the equation: ``ratio`` of what was left before."""
+        if self.least is None:
+            return jnp.zeros_like(ratio, bool)
+        return (ratio > STALLS) & (ratio < GROWS) & (OF_STALL * tolerated < left)
 
 
 ADAPTIVE = Patience(10, 2.0)
@@ -200,8 +204,8 @@ def solve(
         ratio, later, made = size / n.size, n.made > 0, n.made + 1
         rate = jnp.where(later, jnp.maximum(0.3 * n.rate, ratio), n.rate)
         tolerated = tolerances.size(correction, equation.before, x)
-        stalls = later & (remains > STALLS * n.remains)
-        done = patience.ends(size, tolerated, stalls, rate, left)
+        stalls = (n.made > 1) & patience.stalls(tolerated, remains / n.remains, left)
+        done = (size == 0) | (size * jnp.minimum(1.0, rate) < left) | stalls
         diverged = later & (ratio > patience.diverges) & (n.slow | (not patience.renews))
         failed = ~done & (diverged | (made >= patience.most)) | ~jnp.isfinite(size)
         kept = own if patience.renews else None
@@ -262,11 +266,12 @@ def _damped(
         begin = jnp.full_like(n.size, 2.0), n.x, residual, jnp.full_like(remains, jnp.inf)
         share, x, residual, remains = lax.while_loop(goes_on, shorter, begin)
         size = patience.size(tolerances, share * whole, equation.before, x)
-        tolerated, made = tolerances.size(share * whole, equation.before, x), n.made + 1
+        tolerated, made = tolerances.size(whole, equation.before, x), n.made + 1
         rate = jnp.where(n.made > found.made, size / n.size, 1.0)
         left_of = patience.size(tolerances, residual, equation.before, equation.known)
-        stalls = (n.made > found.made) & (left_of > STALLS * n.remains)
-        near = (share == 1) & patience.ends(size, tolerated, stalls, rate, left)
+        stalls = (n.made > found.made) & patience.stalls(tolerated, left_of / n.remains, left)
+        small = (share == 1) & (size * jnp.minimum(1.0, rate) < left)
+        near = (size == 0) | small | stalls
         failed = ~jnp.isfinite(remains) | (made >= 2 * STAGE_STEPS)
         after = n._replace(
             x=x,

@@ -16,7 +16,7 @@ from typing import Any
 import jax
 import numpy as np
 
-from acausal.errors import TrainingError, user_level
+from acausal.errors import DataError, TrainingError, user_level
 from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
 from acausal.training.auto.step_choice import StepChoice, finer_steps
 from acausal.training.auto.verdict import explains, step_error
@@ -66,11 +66,12 @@ def run(
         spread = starts_of(problem, starts, trained)
         starts, trained = [starts[spread.best]], (trained[spread.best],)
     problems = [replace(own, mesh=None) for own in problems]
-    if judged is None and (pieces := _in_pieces(training, problems, trained)) is not None:
-        with suppress(TrainingError):  # what was found over whole records stays
-            shorter = run(pieces, prefix=prefix)
-            if max(one.loss for one in shorter) < max(one.best.loss for one in trained):
-                return shorter
+    with suppress(DataError, TrainingError):  # what was found over whole records stays
+        pieces = None if judged is not None else _in_pieces(training, problems, trained)
+        shorter = () if pieces is None else run(pieces, prefix=prefix)
+        losses = [max((f.loss for f in shorter), default=np.inf), *(t.best.loss for t in trained)]
+        if shorter and losses[0] < max(losses[1:]):
+            return shorter
     errors = _step_errors(training, problems, trained)
     if (step := _finer(training, problems, trained, errors)) is not None:
         finer = _in_steps(training, step)

@@ -103,7 +103,7 @@ def header(text: ModelText) -> str:
         *(
             [
                 f"    {name}_real matrix[{sizes.states**2}], from[{sizes.states}], scratch[{sizes.states}];",
-                f"    {name}_real seed[{sizes.states}];",
+                f"    {name}_real seed[{sizes.states}], remains;",
                 f"    int pivots[{sizes.states}];",
             ]
             if implicit

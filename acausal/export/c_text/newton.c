@@ -47,15 +47,18 @@ static int factor(Model *m, const real t, const real *x, const real *u, const re
     return lu_factor(m->matrix, m->pivots, STATES);
 }
 
-/* What is left of k = rates(t, from + h k), in m->scratch, and how much of the tolerance it is. */
+/* What is left of k = rates(t, from + h k), in m->scratch, and how much of the tolerance it is; beside the states
+   themselves in m->remains. */
 static real residual(Model *m, const real t, const real *u, const real h, const real *from, const real *k, real *x) {
     real size = 0;
+    m->remains = 0;
     for (int i = 0; i < STATES; i++) x[i] = from[i] + h * k[i];
     rates(m, SIDED(t), x, u, m->scratch);
     for (int i = 0; i < STATES; i++) {
         m->scratch[i] -= k[i];
-        const real part = fabs(h * m->scratch[i]) / (TOLERANCE * (1 + fabs(from[i])));
-        if (!(part <= size)) size = part;
+        const real part = fabs(h * m->scratch[i]) / TOLERANCE;
+        if (!(part / (1 + fabs(from[i])) <= size)) size = part / (1 + fabs(from[i]));
+        if (!(part / (LEAST + fabs(from[i])) <= m->remains)) m->remains = part / (LEAST + fabs(from[i]));
     }
     return size;
 }
@@ -63,7 +66,7 @@ static real residual(Model *m, const real t, const real *u, const real h, const 
 /* k = rates(t, from + h k). Where plain corrections fail, they begin anew, each halved until less is left. */
 static int solve_stage(Model *m, const real t, const real *u, const real h, const real *from, real *k, real *x) {
     for (int damped = 0; damped < 2; damped++) {
-        real size = INFINITY, rate = 1, before, tolerated, left;
+        real size = INFINITY, rate = 1, before, tolerated, left, remains;
         int renew = damped;
         if (damped)
             for (int i = 0; i < STATES; i++) k[i] = 0;
@@ -75,6 +78,7 @@ static int solve_stage(Model *m, const real t, const real *u, const real h, cons
             }
             for (int i = 0; i < STATES; i++) m->seed[i] = m->scratch[i];
             lu_solve(m->matrix, m->pivots, m->seed, STATES);
+            remains = m->remains;
             real share = 1, found;
             for (int i = 0; i < STATES; i++) k[i] += m->seed[i];
             found = residual(m, t, u, h, from, k, x);
@@ -86,15 +90,14 @@ static int solve_stage(Model *m, const real t, const real *u, const real h, cons
             before = size;
             size = tolerated = 0;
             for (int i = 0; i < STATES; i++) {
-                const real part = fabs(h * share * m->seed[i]) / TOLERANCE;
-                if (!(part / (LEAST + fabs(x[i])) <= size)) size = part / (LEAST + fabs(x[i]));
+                const real part = fabs(h * m->seed[i]) / TOLERANCE;
+                if (!(share * part / (LEAST + fabs(x[i])) <= size)) size = share * part / (LEAST + fabs(x[i]));
                 if (!(part / (1 + fabs(x[i])) <= tolerated)) tolerated = part / (1 + fabs(x[i]));
             }
-            const real ratio = size / before;
+            const real ratio = size / before, left_of = m->remains / remains;
             if (n > 0) rate = damped || ratio > R(0.3) * rate ? ratio : R(0.3) * rate;
-            const real enough = rate < 1 ? rate : 1;
-            const int small = size == 0 || size * enough < KAPPA;
-            if (share == 1 && (small || (ratio > STALLS && tolerated * enough < KAPPA))) return 1;
+            if (size == 0 || (share == 1 && size * (rate < 1 ? rate : 1) < KAPPA)) return 1;
+            if (n > 1 && left_of > STALLS && left_of < GROWS && OF_STALL * tolerated < KAPPA) return 1;
             renew = damped || (n > 0 && ratio > SLOW);
             left = found;
         }

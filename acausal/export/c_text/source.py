@@ -18,7 +18,16 @@ from acausal.export.c_text.functions import CFunction
 from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.steps import attempt_lines, step_lines
 from acausal.export.c_text.text import ModelText, c_file, least, prelude
-from acausal.simulation import KAPPA, LEAST, SLOW, STAGE_STEPS, STAGE_TOLERANCE, STALLS
+from acausal.simulation import (
+    GROWS,
+    KAPPA,
+    LEAST,
+    OF_STALL,
+    SLOW,
+    STAGE_STEPS,
+    STAGE_TOLERANCE,
+    STALLS,
+)
 
 NUMBERS = ("t", "seed_t", "initial", "apart")
 """Arguments that are single numbers."""
@@ -153,6 +162,8 @@ def _implicit(text: ModelText) -> Iterator[str]:
     yield f"#define LEAST R({LEAST[precision]!r})"
     yield f"#define KAPPA R({KAPPA!r})"
     yield f"#define STALLS R({STALLS!r})"
+    yield f"#define GROWS R({GROWS!r})"
+    yield f"#define OF_STALL R({OF_STALL!r})"
     yield f"#define SLOW R({SLOW!r})"
     yield f"enum {{ STAGE_STEPS = {STAGE_STEPS} }};"
     yield from _function(text, "column", ["t", "x", "u", "seed_x"], ["ddx"], "jacobian_column")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
@@ -84,15 +85,17 @@ def in_pieces(
     found: dict[str, Data] = {}
     for name, data in records.items():
         t = data.time
-        whole = name.rpartition(" from ")[0] if again else name
+        whole = re.sub(r" from [^ ]+ s$", "", name) if again else name
         ends = np.linspace(t[0], t[-1], 1 + int(np.ceil((t[-1] - t[0]) / length)))
         known = np.all([np.isfinite(data[n]) for n in begin], axis=0) | np.zeros(len(t), bool)
+        if len(ends) == 2:
+            found[name] = data
+            continue
         for first, last in pairwise(ends):
             inside = (t >= first) & ((t < last) | (last == t[-1]))
             own = t[inside][np.argmax(known[inside]) :] if known[inside].any() else t[:0]
             if len(own) >= LEAST // 2:
-                piece = data.between(own[0], own[-1])
-                found[name if len(ends) == 2 else f"{whole} from {own[0]:g} s"] = piece
+                found[f"{whole} from {own[0]:.12g} s"] = data.between(own[0], own[-1])
     return found if len(found) > len(records) else None
 
 

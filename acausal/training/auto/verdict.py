@@ -105,10 +105,14 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     bad = not good and np.isfinite(fit.loss)
     if fit.pieces:
         others.append(
-            f"It was followed in {fit.pieces} pieces: the model is so sensitive to its start that no law "
-            "follows it whole."
+            f"It was followed in {fit.pieces} pieces, each from a start of its own: over the whole, what a start or a "
+            "law is off by grows too far."
         )
-    elif bad and (times := sensitivity(problem, fit.trained, simulated)) > SENSITIVE:
+    if (
+        not fit.pieces
+        and bad
+        and (times := sensitivity(problem, fit.trained, simulated)) > SENSITIVE
+    ):
         others.append(
             f"The model is sensitive: starts that are off by {100 * OFF:.2g} % change the targets by "
             f"{100 * OFF * times:.2g} %, so no law follows the whole record. Judge its laws over "
