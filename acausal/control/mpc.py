@@ -162,8 +162,7 @@ class MPC:
         """Forget the last plan, and what was typical: the next one starts where the state stays as it is."""
         self._last: Float[np.ndarray, " n"] | None = None
         self._sent = np.zeros(len(self.goals.decided))
-        self._seen: TypicalSizes | None = None
-        self._size: TypicalSizes | None = None
+        self._typical: TypicalSizes | None = None
 
     def step(
         self,
@@ -197,14 +196,15 @@ class MPC:
         sent = self._sent
         if before is not None:
             sent = self._courses("before", before, goals.decided, times[:1], 0.0)[:, 0]
-        problem, last = self._program, self._last
+        problem, last, earlier = self._program, self._last, self._typical
         now = sizes(problem.linearized, goals, state, t, goal, others, self.dt)
-        self._seen = now.with_earlier(self._seen)
-        size, before_that = self._seen.filled(self.system.nominal), self._size
+        typical, nominal = now.with_earlier(earlier), self.system.nominal
+        size = typical.filled(nominal)
         given = np.concatenate([state, [t], sent, goal.ravel("F"), others.ravel("F"), size.numbers])
-        start = problem.start(state, size)
-        if last is not None and before_that is not None:
-            start = problem.shifted(last, before_that, size)
+        if last is None or earlier is None:
+            start = problem.start(state, size)
+        else:
+            start = problem.shifted(last, earlier.filled(nominal), size)
         began = time.perf_counter()
         found = problem.solve(x0=start, p=given, **problem.bounds(size))
         seconds = time.perf_counter() - began
@@ -213,7 +213,8 @@ class MPC:
         best = np.asarray(found["x"]).ravel()
         best = best if np.isfinite(best).all() else start
         u, ends, seen = (np.asarray(part) for part in problem.read(best, given))
-        self._last, self._size, self._sent = best if solved else None, size, u[:, 0]
+        self._last, self._sent = best if solved else None, u[:, 0]
+        self._typical = typical
         if not solved:
             warnings.warn(
                 f"The controller found no optimum at t = {t:g} s ({status}): check limits and weights, or take a "

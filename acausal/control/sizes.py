@@ -57,7 +57,7 @@ def sizes(
     given: Float[np.ndarray, "n_given n"],
     dt: float,
 ) -> TypicalSizes:
-    """TypicalSizes from what the linearized model does over the horizon, freely and when its inputs jump.
+    """Typical sizes from what the linearized model does over the horizon, freely and when its inputs jump.
 
     Arguments:
         linearized: a CasADi function from ``t, x``, decided and given inputs to ``der(x)``, the tracked variables,

@@ -61,7 +61,7 @@ def _yielded_at(stated: Iterator[Any]) -> str:
     frame = stated.gi_frame if isgenerator(stated) else None
     if frame is None or str(frame.f_globals.get("__name__")).startswith("acausal."):
         return ""
-    return f"line {frame.f_lineno} of {Path(frame.f_code.co_filename).name}"
+    return _place(frame.f_code.co_filename, frame.f_lineno)
 
 
 def _is_sympys(error: Exception) -> bool:
@@ -74,4 +74,8 @@ def _line(error: Exception) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     inner = ("site-packages", __file__, str(Path("acausal", "modeling")))
     own = [f for f in frames if not any(part in f.filename for part in inner)]
-    return f", line {own[-1].lineno} of {Path(own[-1].filename).name}" if own else ""
+    return f", {_place(own[-1].filename, own[-1].lineno)}" if own else ""
+
+
+def _place(file: str, line: int | None) -> str:
+    return f"line {line} of {Path(file).name}"

@@ -57,11 +57,9 @@ def _finer(solution: Solution) -> Float[np.ndarray, " n_states"]:
     if x is None or not x.size:
         return usual
     rows = np.asarray(x, float).reshape(-1, len(states))
-    ends = (
-        np.fmax.reduce(rows),
-        -np.fmin.reduce(rows),
-    )  # without NaN, and without a copy of all rows
-    largest = np.nan_to_num(np.maximum(*ends), posinf=np.inf)
+    # without NaN, and without a copy of all rows
+    largest = np.maximum(np.fmax.reduce(rows), -np.fmin.reduce(rows))
+    largest = np.nan_to_num(largest, posinf=np.inf)
     if (largest >= SMALL).all():
         return usual
     _, unit = np.unique([solution.unit(name) for name in states], return_inverse=True)

@@ -22,6 +22,7 @@ from acausal.training.auto.step_choice import StepChoice, finer_steps
 from acausal.training.auto.verdict import explains, step_error
 from acausal.training.concerns import concerns
 from acausal.training.member import Trained
+from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.options import FitOptions
 from acausal.training.preparation import Training, prepare
@@ -68,10 +69,10 @@ def run(
     problems = [replace(own, mesh=None) for own in problems]
     with suppress(DataError, TrainingError):  # what was found over whole records stays
         pieces = None if judged is not None else _in_pieces(training, problems, trained)
-        shorter = () if pieces is None else run(pieces, prefix=prefix)
-        losses = [max((f.loss for f in shorter), default=np.inf), *(t.best.loss for t in trained)]
-        if shorter and losses[0] < max(losses[1:]):
-            return shorter
+        if pieces is not None:
+            shorter = run(pieces, prefix=prefix)
+            if max(fit.loss for fit in shorter) < max(one.best.loss for one in trained):
+                return shorter
     errors = _step_errors(training, problems, trained)
     if (step := _finer(training, problems, trained, errors)) is not None:
         finer = _in_steps(training, step)
@@ -135,13 +136,13 @@ def _in_pieces(
     lengths = [
         length_of_pieces(own, best.trainable, best.simulated, QUARTER if cut else HALF)
         for own, best in zip(problems, bests, strict=True)
-        if not explains(own, best.loss, best.simulated.y)
+        if not explains(own, best.loss, noise_loss(own.records, best.simulated.y))
         and (cut or is_sensitive(own, best.trainable, best.simulated) or not np.isfinite(best.loss))
     ]
-    measured = set.intersection(*(set(data.signals) for data in training.records.values()))
-    begin = tuple(n for n in problems[0].system.states if n in measured)
     if not lengths:
         return None
+    measured = set.intersection(*(set(data.signals) for data in training.records.values()))
+    begin = tuple(n for n in problems[0].system.states if n in measured)
     pieces = in_pieces(training.records, min(lengths), begin, again=cut)
     if pieces is None:
         return None

@@ -77,7 +77,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     noise, level = noise_loss(problem.records, simulated.y), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
-    down, good = fit.loss <= DOWN_TO * noise, explains(problem, fit.loss, simulated.y)
+    down, good = fit.loss <= DOWN_TO * noise, explains(problem, fit.loss, noise)
     left = [] if fit.loss <= noise else list(_left(fit))
     if down:
         first = f"explains the record {'nearly ' * bool(left)}down to its noise."
@@ -135,12 +135,12 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     return Verdict(good, fit.loss, noise, (first, *others, *_ranges(fit)))
 
 
-def explains(problem: Problem, loss: float, y: Array) -> bool:
-    """Whether a loss is down to the noise that predictions leave, or small; True of losses of other kinds."""
+def explains(problem: Problem, loss: float, noise: float) -> bool:
+    """Whether a loss is down to that of the noise, or small; True of losses of other kinds."""
     if problem.loss is not LOSSES["nrmse"]:
         return True
-    down = loss <= DOWN_TO * noise_loss(problem.records, y)
-    return bool(np.isfinite(loss) and (down or loss <= SMALL * np.sqrt(len(problem.targets))))
+    small = loss <= SMALL * np.sqrt(len(problem.targets))
+    return bool(np.isfinite(loss) and (loss <= DOWN_TO * noise or small))
 
 
 def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
