@@ -161,7 +161,8 @@ def test_a_misspelt_unit_names_its_place() -> None:
 VARIABLES = {
     "s": "m", "s2": "m", "v": "m/s", "a": "m/s2", "f": "N", "phi": "rad", "w": "rad/s", "T": "K",
     "Tc": "degC", "Td": "degC", "mm": "mm", "dm": "dm", "mm_s": "mm/s", "bar": "bar", "deg": "deg",
-    "rpm": "rev/min", "kWh": "kW.h", "share": "%", "u": "V", "i": "A", "p": "Pa", "A": "m2", "P": "W", "E": "J", "k": "1/s", "x": "", "y": "",
+    "rpm": "rev/min", "kWh": "kW.h", "share": "%",
+    "u": "V", "i": "A", "p": "Pa", "A": "m2", "P": "W", "E": "J", "k": "1/s", "x": "", "y": "",
 }  # fmt: skip
 PARAMETERS = {
     "c": "N/m",
