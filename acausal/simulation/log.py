@@ -62,7 +62,8 @@ class Event(NamedTuple):
 
     def __str__(self) -> str:
         """In words."""
-        words = f"t = {self.t:.9g} s: {self.effect or CLOCK.sub(_reached, self.condition)}"
+        digits = 9 if abs(self.t) < 1e6 else 14  # seconds of a calendar
+        words = f"t = {self.t:.{digits}g} s: {self.effect or CLOCK.sub(_reached, self.condition)}"
         if not self.grazes:
             return words
         return (
