@@ -211,11 +211,12 @@ def _of_pint(symbol: str) -> Dimension | None:
         return None
     powers: dict[str, Any] = dict(unit.dimensionality)
     exponents = tuple(Fraction(powers.pop(name, 0)) for name in BASE.values())
-    ones = registry().Quantity(1.0, unit)
-    plain = ones._is_multiplicative  # not decibels, for example
-    return (
-        None if powers else Dimension(exponents, ones.to_base_units().magnitude if plain else None)
-    )
+    if powers:
+        return None
+    one = registry().Quantity(1.0, unit)
+    proportional = one._is_multiplicative  # not decibels, for example
+    factor = float(one.to_base_units().magnitude) if proportional else math.nan
+    return Dimension(exponents, factor)
 
 
 # -- writing ---------------------------------------------------------------------------------------
