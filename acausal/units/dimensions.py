@@ -29,13 +29,13 @@ DERIVED = {
     "N": "kg.m/s2", "Pa": "kg/(m.s2)", "J": "kg.m2/s2", "W": "kg.m2/s3", "var": "W",
     "V": "kg.m2/(A.s3)", "Ohm": "kg.m2/(A2.s3)", "S": "A2.s3/(kg.m2)", "C": "A.s",
     "F": "A2.s4/(kg.m2)", "H": "kg.m2/(A2.s2)", "Wb": "kg.m2/(A.s2)", "T": "kg/(A.s2)",
-    "Hz": "1/s", "g": "kg", "t": "kg", "l": "m3", "bar": "kg/(m.s2)", "mbar": "bar", "mmHg": "bar", "eV": "kg.m2/s2", "lm": "cd",
-    "min": "s", "h": "s", "d": "s", "degC": "K", "degF": "K", "degR": "K",
+    "Hz": "1/s", "g": "kg", "t": "kg", "l": "m3", "bar": "kg/(m.s2)", "mbar": "bar", "mmHg": "bar",
+    "eV": "kg.m2/s2", "lm": "cd", "min": "s", "h": "s", "d": "s", "degC": "K", "degF": "K", "degR": "K",
 }  # fmt: skip
 """Further symbols of units in Modelica, and a unit of the same dimension, perhaps of another scale."""
 
-FACTORS = {"deg": math.pi / 180, "rev": 2 * math.pi, "g": 1e-3, "t": 1e3, "l": 1e-3, "bar": 1e5, "mbar": 1e2, "mmHg": 133.322387415,
-           "eV": 1.602176634e-19, "min": 60.0, "h": 3600.0, "d": 86400.0, "degF": 5 / 9, "degR": 5 / 9}  # fmt: skip
+FACTORS = {"deg": math.pi / 180, "rev": 2 * math.pi, "g": 1e-3, "t": 1e3, "l": 1e-3, "bar": 1e5, "mbar": 1e2,
+           "mmHg": 133.322387415, "eV": 1.602176634e-19, "min": 60.0, "h": 3600.0, "d": 86400.0, "degF": 5 / 9, "degR": 5 / 9}  # fmt: skip
 """Symbols that are not of the SI's scale, and how many of the SI's units each is."""
 
 ZEROS = {"degC": 273.15, "degF": 459.67 * 5 / 9}
