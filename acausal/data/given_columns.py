@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from acausal._jax import need_known
 from acausal.data.readers import SignalTable, is_data_frame, need_unique, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
-from acausal.errors import DataError, listing, nearest, shown
+from acausal.errors import DataError, known_name, listing, shown
 from acausal.modeling import by_name, names_in
 
 Missing = Literal["refuse", "nan"]
@@ -171,10 +171,7 @@ def _masks(given: object, measured: Mapping[str, GivenSignal]) -> Mapping[str, n
     """
     masks: dict[str, np.ndarray] = {}
     for name, own in by_name(given, "mask", "{'mass.s': samples_that_count}").items():
-        if name not in measured:
-            raise DataError(
-                f"There is a mask for '{name}' but no such signal: {nearest(name, measured)}"
-            )
+        known_name(name, measured, "There is a mask for", then=" but no such signal:")
         mask, shape = _array(own), np.shape(measured[name].samples)
         if getattr(mask, "dtype", None) != np.dtype(bool):
             raise DataError(

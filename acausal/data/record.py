@@ -129,8 +129,7 @@ class Data(ByName, Formats):
             return cls.from_dataframe(record)
         if not isinstance(record, Mapping):
             raise DataError(f"A record is acausal.Data or a mapping, not {shown(record)}")
-        if "time" not in record:
-            raise DataError(f"The record has no 'time': {nearest('time', record)}")
+        known_name("time", record, "The record has no")
         return cls(record["time"], {n: v for n, v in record.items() if n != "time"})
 
     @classmethod

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from acausal._jax import is_number
-from acausal.errors import AcausalError, DataError, nearest, need_compiled, need_package, shown
+from acausal.errors import (
+    AcausalError,
+    DataError,
+    known_name,
+    need_compiled,
+    need_package,
+    shown,
+)
 from acausal.modeling import by_name, names_in
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
@@ -164,10 +171,7 @@ def ranges_of(
     if not isinstance(ranges, Mapping):
         ranges = {name: _around(system, name, given) for name in names_in(ranges, "ranges")}
     for name, bounds in ranges.items():
-        if name not in known:
-            raise DataError(
-                f"ranges: '{name}' is neither a parameter nor an input; {nearest(name, known)}"
-            )
+        known_name(name, known, "ranges:", then=" is neither a parameter nor an input;")
         if (
             not isinstance(bounds, Sequence)
             or len(bounds) != 2

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import array, compiled, select, traced
 from acausal.codegen import Packed, Values, read_and_keep
-from acausal.errors import DataError, nearest, need_package
+from acausal.errors import DataError, known_name, need_package
 from acausal.files import csv_text, need_path, write_files
 from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.finite import warn_of_nonfinite
@@ -281,8 +281,7 @@ class Solution(ByName):
             self._observed.update(found)
         new = tuple(n for n in new if n not in self._observed)
         for name in new:
-            if name not in self.system.variables:
-                raise DataError(f"The model has no variable '{name}': {nearest(name, self.names)}")
+            known_name(name, self.system.variables, "The model has no variable")
         if new:
             self._compute(new)
         warn_of_nonfinite(self.system, self.values, {n: self._observed[n] for n in unread})

@@ -18,7 +18,7 @@ import optax
 from jax.typing import DTypeLike
 
 from acausal._jax import is_number, traced
-from acausal.errors import TrainingError, nearest, need_flag, need_whole, shown
+from acausal.errors import TrainingError, known_name, nearest, need_flag, need_whole, shown
 from acausal.files import need_path
 from acausal.jobs import Workers, need_workers
 from acausal.simulation import Solver
@@ -350,8 +350,7 @@ class FitOptions:
         if "auto" in self.parts and len(self.parts) > 1:
             raise TrainingError("strategy='auto' chooses all parts itself; give it alone.")
         for name in self.parts:
-            if name not in UPDATES:
-                raise TrainingError(f"No strategy '{name}': {nearest(name, UPDATES)}")
+            known_name(name, UPDATES, "No strategy", TrainingError)
         if self.optimizer is not None and all(name in OWN_OPTIMIZER for name in self.parts):
             named = ", then ".join(self.parts)
             raise TrainingError(

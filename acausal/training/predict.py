@@ -14,7 +14,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import compiled, is_number, levenberg_marquardt, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, listing, nearest, shown
+from acausal.errors import DataError, known_name, listing, shown
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import by_name
 from acausal.training.conformal import Conformal
@@ -110,8 +110,7 @@ def _own_given(
     if not any(isinstance(v, Mapping) for v in given.values()):
         return dict.fromkeys(records, given)
     for record in given:
-        if record not in records:
-            raise DataError(f"params: there is no record '{record}': {nearest(record, records)}")
+        known_name(record, records, "params: there is no record")
     return dict(given)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.data.by_signal import check_units
 from acausal.data.samples import Place, sample
-from acausal.errors import DataError, nearest, need_text, shown
+from acausal.errors import DataError, known_name, nearest, need_text, shown
 from acausal.modeling import by_name, names_in
 
 HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
@@ -124,8 +124,7 @@ def headers(cells: Sequence[str], where: str) -> tuple[list[str], dict[str, str]
 
 def need_column(name: str, known: Collection[str], source: str) -> None:
     """Refuse a column that a source does not have."""
-    if name not in known:
-        raise DataError(f"{source} has no column '{name}': {nearest(name, known)}")
+    known_name(name, known, f"{source} has no column")
 
 
 def need_time(selection: Selection, known: Collection[str], source: str) -> None:

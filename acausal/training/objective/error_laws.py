@@ -19,7 +19,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float
 
 from acausal._jax import is_number
-from acausal.errors import TrainingError, nearest, shown
+from acausal.errors import TrainingError, known_name, shown
 
 LEAST = 1e-6
 """The smallest level that is estimated, relative to a target's standard deviation."""
@@ -91,11 +91,9 @@ class ErrorLaw(ABC):
         Raises:
             TrainingError: for a level of something else.
         """
+        of = f"{type(self).__name__}: noise of"
         for name in self.noise:
-            if name not in targets:
-                raise TrainingError(
-                    f"{type(self).__name__}: noise of '{name}', which is not a target: {nearest(name, targets)}"
-                )
+            known_name(name, targets, of, TrainingError, ", which is not a target:")
         noise = tuple(float(self.noise[n]) if n in self.noise else None for n in targets)
         return LogLikelihood(replace(self, noise={}), noise)
 

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float, Int
 from acausal._jax import array, is_number, traced
 from acausal.codegen import Packed, Values
 from acausal.data import Data
-from acausal.errors import DataError, listing, nearest, shown
+from acausal.errors import DataError, known_name, listing, nearest, shown
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -147,8 +147,7 @@ def check_records(x0: InitialState, known: Iterable[str]) -> None:
     known = list(known)
     if differs(known, x0):
         for name in x0:
-            if name not in known:
-                raise DataError(f"x0: there is no record '{name}': {nearest(name, known)}")
+            known_name(name, known, "x0: there is no record")
 
 
 def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:

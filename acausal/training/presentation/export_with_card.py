@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import acausal.export as export
-from acausal.errors import DataError, nearest, shown, user_level
+from acausal.errors import DataError, known_name, shown, user_level
 from acausal.files import file_to_write, need_path, write_files
 from acausal.modeling import by_name
 from acausal.training.presentation.model_card import facts, markdown
@@ -44,10 +44,7 @@ def export_with_card(
         DataError: for an unknown ending, what is no path of a file, or as the function for this form does.
     """
     target = need_path(path, "fit.export")
-    if target.suffix not in FORMS:
-        raise DataError(
-            f"fit.export: there is no form '{target.suffix}'; {nearest(target.suffix, FORMS)}"
-        )
+    known_name(target.suffix, FORMS, "fit.export: there is no form", then=";")
     cards = [target.with_name(target.name + ending) for ending in (".md", ".json")]
     for card in (target, *cards):
         file_to_write(card, "fit.export", need_folder=False)
