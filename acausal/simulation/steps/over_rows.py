@@ -204,9 +204,10 @@ def integrate_in_steps(
         *others,
         events=events,
         max_tries=None if tries is None else tries * n * parts + FEWEST,
+        forward=direct,
     )
     log = None if d0 is None else Log.empty(len(start.x) + len(d0), dtype, values=0)
-    found = solve(first_run(problem, method, d=d0, log=log, forward=direct)).found
+    found = solve(first_run(problem, method, d=d0, log=log)).found
     x, d = found.saved
     if restarts is not None:
         x = jnp.where(restarts.begins[:, None], restarts.first, x)

@@ -112,6 +112,8 @@ class Integration(eqx.Module):
         events: of the model; None for one without.
         max_step: the longest step, in seconds; None: as long as its error allows.
         max_tries: limit of steps, those that only search for the instant of an event included; None: none.
+        until_stiff: whether to stop where stability limits the steps.
+        forward: whether derivatives in forward mode must work, of any order, and none in reverse mode.
     """
 
     field: RightHandSide
@@ -130,6 +132,8 @@ class Integration(eqx.Module):
     events: Events | None = eqx.field(static=True, default=None)
     max_step: Float[Array, ""] | None = None
     max_tries: int | None = eqx.field(static=True, default=None)
+    until_stiff: bool = eqx.field(static=True, default=False)
+    forward: bool = eqx.field(static=True, default=False)
 
     @property
     def watched(self) -> Events:

@@ -78,23 +78,16 @@ class RecordedSteps(eqx.Module):
     end: tuple[Any, ...]
 
 
-def reverse(
-    method: Any, problem: Integration, start: LoopStart, *, until_stiff: bool = False
-) -> LoopResult:
+def reverse(method: Any, problem: Integration, start: LoopStart) -> LoopResult:
     """`search`, with derivatives in reverse mode.
 
     The states of all steps are kept, as far as there is room (`_size`). Of a longer run they are kept part by part:
     the derivative makes each part again from its start.
     """
-    return with_steps(
-        (method, problem, start),
-        lambda task: search(*task, until_stiff=until_stiff),
-        lambda task: _kept(task, until_stiff),
-        partial(_back, until_stiff),
-    )
+    return with_steps((method, problem, start), lambda task: search(*task), _kept, _back)
 
 
-def _kept(task: Task, until_stiff: bool) -> tuple[LoopResult, RecordedSteps]:
+def _kept(task: Task) -> tuple[LoopResult, RecordedSteps]:
     """The result of a run, and its steps."""
     method, problem, start = task
     progress, saved = begin(method, problem, start)
@@ -108,7 +101,7 @@ def _kept(task: Task, until_stiff: bool) -> tuple[LoopResult, RecordedSteps]:
         i, progress, saved, parts, rows, n = carry
         k = jnp.where(runs, i, most)
         parts = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), parts, progress.short())
-        last, saved, rows = advance(method, problem, progress, saved, rows, until_stiff=until_stiff)
+        last, saved, rows = advance(method, problem, progress, saved, rows)
         n = jnp.where(runs, last.counts.steps - progress.counts.steps, n)
         return i + runs, last, saved, parts, rows, n
 
@@ -131,9 +124,7 @@ def _size(numbers: int, problem: Integration) -> int:
     return small if small >= FEWEST else max(min(MORE_MEMORY // numbers, ENOUGH), FEWEST)
 
 
-def _back(
-    until_stiff: bool, of_moved: OfMoved, own: list[Array], kept: RecordedSteps, to: LoopResult
-) -> list[Array]:
+def _back(of_moved: OfMoved, own: list[Array], kept: RecordedSteps, to: LoopResult) -> list[Array]:
     """The cotangents of what moves."""
     method, problem, _ = of_moved(own)
     size, parts = len(kept.rows.t), kept.parts.t.shape[0]
@@ -158,7 +149,7 @@ def _back(
         if parts > 1:
 
             def again() -> tuple[Row, Array]:
-                made = advance(method, problem, progress, None, rows, until_stiff=until_stiff)[2]
+                made = advance(method, problem, progress, None, rows)[2]
                 assert made is not None
                 return made, jnp.asarray(size, n.dtype)
 
