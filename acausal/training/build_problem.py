@@ -126,7 +126,7 @@ def build_problem(
     how = options.sequence_length, options.batch_size, options.subsample
     lacking = [n for n in own_states if any(n not in d.signals for d in data.values())]
     if streamed is None:
-        sequences = cut(records, np.ones(records.count), *how, tiled=shooting, lacking=lacking)
+        sequences = cut(records, *how, tiled=shooting, lacking=lacking)
     else:
         records = replace(records, sigma=jnp.asarray(streamed.sigma))
         sequences = streamed.cut(*how, lacking)

@@ -52,12 +52,16 @@ class Batch(eqx.Module):
         The gradients of diverged sequences would be undefined even if multiplied by a weight of zero.
         """
         good = jnp.argmin(bad)
-        replaced = jax.tree.map(lambda a: jnp.where(_column(bad, a), a[good], a), self)
-        return eqx.tree_at(lambda b: b.weight, replaced, jnp.where(bad, 0.0, self.weight))
 
+        def replaced(a: Array) -> Array:
+            return jnp.where(bad.reshape(bad.shape + (1,) * (a.ndim - 1)), a[good], a)
 
-def _column(mask: Bool[Array, " batch"], like: Array) -> Array:
-    return mask.reshape(mask.shape + (1,) * (like.ndim - 1))
+        healthy = jax.tree.map(replaced, self)
+        return eqx.tree_at(lambda b: b.weight, healthy, jnp.where(bad, 0.0, self.weight))
+
+    def compared(self, *columns: Float[Array, "length ..."]) -> tuple[Array, ...]:
+        """Of one of the sequences, the rows of some columns that count."""
+        return columns if self.points is None else tuple(a[self.points] for a in columns)
 
 
 class ReadSequences(eqx.Module):
@@ -184,7 +188,6 @@ def whole_records(records: Records, points: int | None = None) -> Sequences:
 
 def cut(
     records: Records,
-    weights: Float[np.ndarray, " R"],
     seconds: float | Literal["auto"] | None,
     batch_size: int | None,
     fraction: float | None,
@@ -196,7 +199,6 @@ def cut(
 
     Arguments:
         records: the records.
-        weights: of the records.
         seconds: length of a sequence; ``None`` takes all of every record, and so does ``"auto"`` where sequences of
             `SAMPLES` could not begin at measured states, or would be longer than half of a record.
         batch_size: sequences in a batch; ``None`` for 1, or `SEQUENCES` of that length.
@@ -227,10 +229,9 @@ def cut(
         batch_size = min(batch_size, len(starts))
     else:
         starts = _startable(records, n, lacking)
-    weight = weights[np.asarray(records.of)[starts]]
     return Sequences(
         jnp.asarray(starts),
-        jnp.asarray(weight),
+        jnp.ones(len(starts)),
         n,
         batch_size=batch_size,
         points=some(fraction, n),
