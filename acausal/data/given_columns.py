@@ -98,9 +98,10 @@ def _by_name(signals: object) -> Mapping[str, Any]:
         need_unique(signals, "The data frame")
         return {n: signals[n].to_numpy() for n in names_in(signals.columns, "signals")}
     if not isinstance(signals, Mapping):
+        shape = getattr(signals, "shape", None)
         raise DataError(
             "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
-            f"not {_described(signals)}."
+            f"not {shown(signals) if shape is None else f'an array of shape {shape}'}."
         )
     return {name: signals[name] for name in names_in(signals, "signals")}
 
@@ -205,11 +206,6 @@ def _check(name: str, samples: Any, ts: np.ndarray, place: Place, missing: Missi
 
 def _place(i: int, ts: np.ndarray, unit: str) -> str:
     return f"{sample(i)} ({ts[i]:g} {unit})"
-
-
-def _described(thing: object) -> str:
-    shape = getattr(thing, "shape", None)
-    return shown(thing) if shape is None else f"an array of shape {shape}"
 
 
 Times: TypeAlias = Float[np.ndarray, " n"]

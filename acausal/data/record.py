@@ -283,17 +283,13 @@ class Data(ByName, Formats):
     def __repr__(self) -> str:
         spacing = f"{self.sample_time:g} s" if self.uniform else "an uneven time base"
         shares = {n: 1 - count / len(self) for n, count in self.counts.items()}
-        absent = [f"{_percent(share)} of '{n}'" for n, share in shares.items() if share]
+        absent = [f"{100 * share:.3g} % of '{n}'" for n, share in shares.items() if share]
         more = f"; missing: {', '.join(absent[:12])}" if absent else ""
         more += f" and of {len(absent) - 12} more" if len(absent) > 12 else ""
         return (
             f"Data({len(self)} samples at {spacing}, {self.time[0]:g} to {self.time[-1]:g} s: "
             f"{listing(self.signals)}{more})"
         )
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:.3g} %"
 
 
 def _warn_of_gaps(ts: Float[np.ndarray, " n"], name: str, interpolation: str) -> None:

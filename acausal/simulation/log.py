@@ -62,16 +62,13 @@ class Event(NamedTuple):
 
     def __str__(self) -> str:
         """In words."""
-        words = f"t = {self.t:.9g} s: {self.effect or CLOCK.sub(_reached, self.condition)}"
+        condition = CLOCK.sub(lambda one: f"time reaches {one[1] or one[2]}", self.condition)
+        words = f"t = {self.t:.9g} s: {self.effect or condition}"
         if not self.grazes:
             return words
         return (
             f"{words} (it hardly changes there: a gradient through it does not exist, or is huge)"
         )
-
-
-def _reached(condition: re.Match[str]) -> str:
-    return f"time reaches {condition[1] or condition[2]}"
 
 
 class EventList(tuple[Event, ...]):

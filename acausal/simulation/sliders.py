@@ -87,7 +87,9 @@ def sliders(
             `acausal.simulate` refuses.
     """
     need_compiled(system, "sliders")
-    if isinstance(t, str | Mapping) or (isinstance(t, Sequence) and any(map(_is_text, t))):
+    if isinstance(t, str | Mapping) or (
+        isinstance(t, Sequence) and any(isinstance(v, str) for v in t)
+    ):
         raise DataError(
             f"sliders: t={shown(t)} is not a time; give it first, ac.sliders(system, 10.0, {shown(t)})."
         )
@@ -185,10 +187,6 @@ def ranges_of(
         value = float(given[name]) if name in given else 0.5 * (low + high)
         found.append(Range(name, low, high, min(max(value, low), high), system.unit(name)))
     return tuple(found)
-
-
-def _is_text(value: object) -> bool:
-    return isinstance(value, str)
 
 
 def _around(system: System, name: str, params: Mapping[str, Any]) -> tuple[float, float]:

@@ -63,7 +63,7 @@ def fingerprint(
     """
     fields = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     named = {ARGUMENTS.get(n, n): field for n, field in fields.items() if n not in DERIVED}
-    system, targets = problem.system, problem.targets
+    system, targets, records = problem.system, problem.targets, problem.records
     t, x, u = jnp.zeros(()), jnp.zeros(len(system.states)), jnp.zeros(len(system.inputs))
     point = t, x, u, problem.params
     planned = {
@@ -71,9 +71,9 @@ def fingerprint(
         "targets": (targets, program(functools.partial(system.observe, targets), *point)),
         "loss": ([segment.trainer.limit for segment in segments], _loss(problem)),
         "regularizers": {n: _regularizer(problem, r) for n, r in problem.regularizers.items()},
-        "record_weights or sample_weights": (problem.weighting, problem.records.weight),
+        "record_weights or sample_weights": (problem.weighting, records.weight),
         "data": (
-            problem.records.unweighted(),
+            dataclasses.replace(records, weight=jnp.where(records.weight > 0, 1.0, 0.0)),
             {n: dict(d.signals) for n, d in data.items()},
             problem.streamed,
         ),

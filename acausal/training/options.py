@@ -358,9 +358,6 @@ class FitOptions:
             )
         if self.starts > 1 and self.devices is not None:
             raise TrainingError("Several starts are trained on one device: leave out devices=.")
-        self._check_updates()
-
-    def _check_updates(self) -> None:
         if not self.parts or len(self.updates) != len(self.parts):
             raise TrainingError(
                 f"epochs={self.epochs} for the strategy {self.parts}: give one number, or one for each part."

@@ -157,7 +157,12 @@ def _own(
     params: Mapping[str, Mapping[str, float]],
 ) -> Own:
     """What the records have for themselves, before their targets have told of it."""
-    problem = _nameless(over(_records_alike(fit.problem), records, x0, measured=False))
+    # no record counts for more because of others, which are not predicted along with it
+    alike = replace(fit.problem, weighting=replace(fit.problem.weighting, records="samples"))
+    problem = over(alike, records, x0, measured=False)
+    # numbers for names, which compiled programs know: they serve other records of that length
+    numbers = tuple(map(str, range(problem.records.count)))
+    problem = replace(problem, records=replace(problem.records, names=numbers))
     trainable = problem.over_other_records(fit.trained)
     laid, names = problem.records, problem.per_record.names
     measured = np.isfinite(laid.measured)
@@ -179,17 +184,6 @@ def _own(
     information[:, : len(names)][given] = np.inf
     values = np.concatenate([own, moves], 1)
     return Own(problem, trainable, *map(jnp.asarray, (values, free, information)))
-
-
-def _records_alike(problem: Problem) -> Problem:
-    """The problem in which no record counts for more because of others, which are not predicted along with it."""
-    return replace(problem, weighting=replace(problem.weighting, records="samples"))
-
-
-def _nameless(problem: Problem) -> Problem:
-    """The problem with numbers for names, which compiled programs know: they serve other records of that length."""
-    numbers = tuple(map(str, range(problem.records.count)))
-    return replace(problem, records=replace(problem.records, names=numbers))
 
 
 def _given(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +39,8 @@ def read_mdf(path: Path, selection: Selection) -> SignalTable:
         places = _places(file)
         chosen = selection.names(places, str(path))
         try:
-            channels = _channels(file, places, chosen)
+            found = file.select([(None, *places[name]) for name in chosen])
+            channels = {n: c.validate() for n, c in zip(chosen, found, strict=True)}
         except Exception as e:
             raise DataError(f"{path} cannot be read: {shown(str(e))}.") from None
     usable = {n: c for n, c in channels.items() if _is_usable(c)}
@@ -65,14 +65,6 @@ def _places(file: Any) -> dict[str, tuple[int, int]]:
         for group, index in dict.fromkeys(of_name):
             places[name if len(of_name) == 1 else f"{name}@{group}"] = (group, index)
     return places
-
-
-def _channels(
-    file: Any, places: dict[str, tuple[int, int]], names: Sequence[str]
-) -> dict[str, Any]:
-    """The channels without invalid samples."""
-    found = file.select([(None, *places[name]) for name in names])
-    return {name: channel.validate() for name, channel in zip(names, found, strict=True)}
 
 
 def _is_usable(channel: Any) -> bool:

@@ -83,7 +83,7 @@ class Selection:
         Raises:
             DataError: if two signals get one name.
         """
-        called = {n: self._name(n) for n in signals}
+        called = {n: names_in([(self.rename or {}).get(n, n)], "rename")[0] for n in signals}
         renamed: dict[str, Any] = {}
         for name, samples in signals.items():
             if called[name] in renamed or called[name] == "time":
@@ -93,10 +93,6 @@ class Selection:
             renamed[called[name]] = samples
         found = {called.get(n, n): u for n, u in units.items() if n in signals or n == "time"}
         return SignalTable(time, renamed, {**found, **check_units(self.units)}, source, place)
-
-    def _name(self, column: str) -> str:
-        name = (self.rename or {}).get(column, column)
-        return names_in([name], "rename")[0]
 
 
 def headers(cells: Sequence[str], where: str) -> tuple[list[str], dict[str, str]]:

@@ -166,7 +166,14 @@ class OneStep(eqx.Module):
         made = self.make(problem.field, t, h, x, memory.first)
         error = lax.stop_gradient(problem.tolerances.size(made.error, x, made.x))
         error = jnp.where(made.done & jnp.isfinite(error), error, jnp.inf)
-        look = self._look(problem, made, t, h, x, error)
+        fixed, dense = without_derivatives((problem, made.dense))
+        begin, length, *ends = lax.stop_gradient((t, h, x, made.x))
+
+        def size(share: Any) -> Array:
+            off = defect(self, fixed, dense, begin, length, share)[1]
+            return fixed.tolerances.size(off, *ends)
+
+        look = look_inside(problem, error, INSIDE, size, OF_DEFECT)
         looked = (error < 1) & (look.error >= 1)
         error, accepted = look.error, look.error < 1
         factor = SAFETY * error ** (-1 / self._order)
@@ -189,17 +196,6 @@ class OneStep(eqx.Module):
             accepted & (limited >= STIFF_AFTER),
             made.counts.plus(Counts.of(rates=look.rates, looks=looked)),
         )
-
-    def _look(
-        self, problem: Integration, made: Made, t: Array, h: Array, x: State, error: Array
-    ) -> Look:
-        """The error with what the right-hand side is at two more points."""
-        fixed, dense, t, h, x, end = without_derivatives((problem, made.dense, t, h, x, made.x))
-
-        def size(share: Any) -> Array:
-            return fixed.tolerances.size(defect(self, fixed, dense, t, h, share)[1], x, end)
-
-        return look_inside(problem, error, INSIDE, size, OF_DEFECT)
 
     def between(self, dense: dict[str, Any], t: Array, h: Array, at: Array) -> State:
         """The state at a time within a step from t of length h."""

@@ -31,10 +31,6 @@ Levels = Mapping[str, float]
 """Standard deviations by target, in its unit; those of other targets are estimated."""
 
 
-def _none() -> Levels:
-    return {}
-
-
 @dataclass(frozen=True)
 class ErrorLaw(ABC):
     """How measurement errors are distributed about the model's predictions: a loss for `acausal.fit`.
@@ -46,7 +42,7 @@ class ErrorLaw(ABC):
         noise: levels by target, in its unit; those of other targets are estimated.
     """
 
-    noise: Levels = field(default_factory=_none, hash=False, kw_only=True)
+    noise: Levels = field(default_factory=dict[str, float], hash=False, kw_only=True)
 
     def __post_init__(self) -> None:
         """Check the levels.

@@ -124,14 +124,6 @@ class Records(eqx.Module):
         """Whether a record begins at a row."""
         return jnp.zeros(len(self), bool).at[self.first].set(True)
 
-    def spread_at_starts(self, x0: Float[Array, "R n_states"]) -> Float[Array, "N n_states"]:
-        """Rows with a state for each record at its first row, zero elsewhere."""
-        return jnp.zeros((len(self), x0.shape[1]), x0.dtype).at[self.first].set(x0)
-
-    def unweighted(self) -> Records:
-        """The same where all measured samples count alike."""
-        return replace(self, weight=jnp.where(self.weight > 0, 1.0, 0.0))
-
     def window(self, start: Int[Array | np.ndarray, "*n"], length: int) -> Window:
         """The ``length`` rows from ``start`` on; beyond the record's end its last row is repeated, with no weight.
 

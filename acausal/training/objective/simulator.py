@@ -153,8 +153,9 @@ class Simulator(eqx.Module):
         if records.count == 1:
             one = self.packed_of(packed, jnp.asarray(0))
             return self._measured(self.integrate_from(one, x0[0], steps), packed)
+        first = jnp.zeros((len(records), x0.shape[1]), x0.dtype).at[records.first].set(x0)
         runs = Runs(
-            Restarts(records.begins, records.spread_at_starts(x0)),
+            Restarts(records.begins, first),
             None if own is None else own[records.of],
             self.per_record.places,
             records.count,

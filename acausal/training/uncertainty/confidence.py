@@ -123,7 +123,7 @@ class Confidence:
             if abs(self.correlation[i, j]) > INDISTINGUISHABLE
         ]
         taken = [
-            f"The data can hardly tell '{name}' from the law '{law}' (correlation {_digits(value)}), which can "
+            f"The data can hardly tell '{name}' from the law '{law}' (correlation {min(value, 0.9999):.4f}), which can "
             "take any part of it: only the two together are known well; fix one, or measure more."
             for name, laws in self.with_laws.items()
             for law, value in laws.items()
@@ -165,8 +165,3 @@ def _law_known(name: str, band: Band) -> str:
         f"'{name}' is known to {np.median(doubt):.2g} % of its range, at worst to {doubt[worst]:.2g} % near "
         f"{band.x[worst]:.2g} (two sigma)."
     )
-
-
-def _digits(correlation: float) -> str:
-    """A correlation near 1 that does not read as 1 itself."""
-    return f"{min(correlation, 0.9999):.4f}"

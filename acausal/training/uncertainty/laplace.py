@@ -27,7 +27,7 @@ from acausal.training.objective.prior import LawPrior, Prior
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
-from acausal.training.uncertainty.bumps import bumps_at
+from acausal.training.uncertainty.bumps import bumps_at, split
 from acausal.training.uncertainty.changes import Changes, changes
 from acausal.training.uncertainty.confidence import BAND_POINTS, TAKEN, Band, Confidence
 from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
@@ -81,6 +81,7 @@ def confidence(
     step_move = move(blocks, error.ravel())[1]
     earlier = _earlier(change)
     samples = noise.samples + sum(len(b.common) for b in earlier)
+    alike = float(noise.count @ noise.alike / noise.count.sum())  # over all targets
     found = posterior_covariance([*blocks, *earlier], samples)
     covariance = found.common * np.outer(change.deviations, change.deviations)
     between = covariance[change.parameters, change.parameters]
@@ -93,7 +94,7 @@ def confidence(
     known = np.where(taken, np.maximum(sigma, change.of_parameters), sigma)
     bands = {
         name: _band(change, name, onward[own], covariance[np.ix_(own, own)])
-        for name, own in change.by_law(np.arange(len(onward))).items()
+        for name, own in split(change.bumped, np.arange(len(onward)))[0].items()
     }
     return Confidence(
         bands,
@@ -106,7 +107,7 @@ def confidence(
         _unexplained(problem, left),
         step_move,
         _about(change, sigma, taken),
-        _as_prior(change, found.root / change.deviations, noise.mean_alike),
+        _as_prior(change, found.root / change.deviations, alike),
     )
 
 
@@ -147,11 +148,6 @@ class _Noise:
     def samples(self) -> float:
         """How many independent samples all residuals are worth."""
         return float(np.sum(self.count / self.alike))
-
-    @property
-    def mean_alike(self) -> float:
-        """How many residuals are worth one independent sample, over all targets."""
-        return float(self.count @ self.alike / self.count.sum())
 
     def relative(
         self, values: Float[np.ndarray, "N n_targets *n"]
