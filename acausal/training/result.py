@@ -30,8 +30,6 @@ from acausal.training.presentation.fit_page import fit_content
 from acausal.training.presentation.fit_view import fit_text, fit_view
 from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records
-from acausal.training.starts import Starts
-from acausal.training.strategy import StageResult
 from acausal.training.trained_model import Seen, TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
 
@@ -264,16 +262,10 @@ def result(
     problem: Problem,
     trained: Trained,
     prepare_seconds: float,
-    held: Problem | None = None,
-    starts: Starts | None = None,
-    settings: Mapping[str, str] | None = None,
-    stages: tuple[StageResult, ...] = (),
-    step_error: float | None = None,
-    not_laws: tuple[str, ...] = (),
-    without_constant: tuple[str, ...] = (),
-    pieces: int = 0,
+    held: Problem | None,
+    **others: Any,
 ) -> Fit:
-    """The result of a training; arguments as the attributes of `Fit`."""
+    """The result of a training; the other arguments are attributes of `Fit`."""
     best, history, held_out = trained.best, trained.history, dict[str, RecordFit]()
     if held is not None:
         held = replace(held, mesh=None)
@@ -304,11 +296,5 @@ def result(
         interrupted=trained.interrupted,
         problem=problem,
         trained=best.trainable,
-        starts=starts,
-        settings=dict(settings or {}),
-        stages=stages,
-        step_error=step_error,
-        not_laws=not_laws,
-        without_constant=without_constant,
-        pieces=pieces,
+        **others,
     )

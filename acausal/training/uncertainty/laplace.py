@@ -22,6 +22,7 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import compiled, value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import bounds_of, kept_promises, law_at
+from acausal.simulation import Adaptive
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.prior import LawPrior, Prior
 from acausal.training.objective.problem import Problem
@@ -30,9 +31,12 @@ from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.bumps import bumps_at, split
 from acausal.training.uncertainty.changes import Changes, changes
 from acausal.training.uncertainty.confidence import BAND_POINTS, TAKEN, Band, Confidence
-from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
+from acausal.training.uncertainty.record_elimination import (
+    RecordJacobian,
+    move,
+    posterior_covariance,
+)
 from acausal.training.uncertainty.residuals import correlation_time, unexplained
-from acausal.training.uncertainty.step_error import move, step_error
 from acausal.training.uncertainty.tangents import correlation_with
 
 UNKNOWN = 0.9
@@ -77,7 +81,7 @@ def confidence(
         for part in np.split(effects, ends)
     ]
     onward = change.deviations * move(blocks, noise.relative(left).ravel())[0]
-    error = noise.relative(step_error(problem, trainable))
+    error = noise.relative(_step_error(problem, trainable))
     step_move = move(blocks, error.ravel())[1]
     earlier = _earlier(change)
     samples = noise.samples + sum(len(b.common) for b in earlier)
@@ -188,6 +192,17 @@ def _alike(
         return sum(time * n for time, n in times) / total if total else 1.0
 
     return np.array([one(*pair) for pair in zip(left.T, counts.T, strict=True)])
+
+
+def _step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N n_targets"]:
+    """What shorter steps change in the predictions; zero for adaptive steps, which know their error.
+
+    Nothing is known where inputs are delayed by a time that is trained, as they are laid out for these steps: zero.
+    """
+    known = np.asarray(problem.simulate(trainable).y)
+    if isinstance(problem.solver, Adaptive) or problem.timing.delays:
+        return np.zeros_like(known)
+    return np.asarray(problem.finer().simulate(trainable).y) - known
 
 
 def _earlier(change: Changes) -> list[RecordJacobian]:
