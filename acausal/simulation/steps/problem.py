@@ -156,11 +156,6 @@ class Integration(eqx.Module):
         places = lambda p: (p.field.d, p.field.until)  # noqa: E731
         return eqx.tree_at(places, self, sides, is_leaf=lambda leaf: leaf is None)
 
-    @property
-    def most_steps(self) -> int:
-        """How many steps there may be, those at edges included."""
-        return self.max_steps * (EDGE_STEPS if self.field.has_edges else 1)
-
     def apart(self, t: Float[Array, ""]) -> Float[Array, ""]:
         """How far another time must be from one to be another."""
         eps = SIDE * jnp.finfo(jnp.result_type(t)).eps

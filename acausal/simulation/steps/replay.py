@@ -31,7 +31,7 @@ from acausal.simulation.steps.loop import (
     row_like,
     search,
 )
-from acausal.simulation.steps.problem import Integration
+from acausal.simulation.steps.problem import EDGE_STEPS, Integration
 from acausal.simulation.steps.rows import (
     EDGE,
     RESTART,
@@ -94,7 +94,8 @@ def _kept(task: Task) -> tuple[LoopResult, RecordedSteps]:
     like = row_like(method, problem, progress)
     numbers = sum(a.size for a in jax.tree.leaves(like))
     size = min(problem.max_steps, _size(numbers, problem))
-    most = -(-problem.most_steps // size)
+    most_steps = problem.max_steps * (EDGE_STEPS if problem.field.has_edges else 1)
+    most = -(-most_steps // size)
     rows, parts = room(like, size), room(progress.short(), most)
 
     def one(carry: tuple[Any, ...], runs: Array) -> tuple[Any, ...]:

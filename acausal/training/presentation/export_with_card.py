@@ -61,19 +61,13 @@ def export_with_card(
         )
     further = by_name(notes, "fit.export: notes", "lines by title")
     function = FORMS[target.suffix]
-    files = _write(fit, target, function, dict(options))
+    own = {**({"ranges": fit.ranges} if function in WITH_RANGES else {}), **options}
+    write: Any = getattr(export, function)
+    if function == "c":
+        own = {"name": target.stem, **own}
+        files = write(fit.system, target.parent, fit.params, **own)[::-1]
+    else:
+        files = (write(fit.system, target, fit.params, **own),)
     found = facts(fit, files, function, {**options}, confidence, further)
     write_files({cards[0]: markdown(found), cards[1]: json.dumps(found, indent=2) + "\n"})
     return target
-
-
-def _write(
-    fit: TrainedModel, path: Path, function: str, options: dict[str, Any]
-) -> tuple[Path, ...]:
-    """The files that were written, the one of the path first."""
-    if function in WITH_RANGES:
-        options = {"ranges": fit.ranges, **options}
-    write: Any = getattr(export, function)
-    if function == "c":
-        return write(fit.system, path.parent, fit.params, **{"name": path.stem, **options})[::-1]
-    return (write(fit.system, path, fit.params, **options),)
