@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import equinox as eqx
 import jax
@@ -240,22 +240,14 @@ def cut(
     )
 
 
-class BatchSizes(NamedTuple):
-    """Of batches: seconds and rows in a sequence, ``None`` and the longest record's for whole records; sequences."""
-
-    seconds: float | None
-    rows: int
-    batch_size: int
-
-
 def batch_sizes(
     rows: Int[np.ndarray, " R"],
     spans: Float[np.ndarray, " R"],
     startable: bool,
     seconds: float | Literal["auto"] | None,
     batch_size: int | None,
-) -> BatchSizes:
-    """The sizes of batches.
+) -> tuple[float | None, int, int]:
+    """Of batches: seconds and rows in a sequence, ``None`` and the longest record's for whole records; sequences.
 
     Arguments:
         rows: of every record; ``spans``: from its first to its last time.
@@ -266,10 +258,8 @@ def batch_sizes(
         fits = startable and rows.max() >= 2 * SAMPLES
         if batch_size is None:
             batch_size = SEQUENCES if fits else 1
-        return BatchSizes(*((np.inf, SAMPLES) if fits else (None, int(rows.max()))), batch_size)
-    return BatchSizes(
-        seconds, _length(rows, spans, seconds), 1 if batch_size is None else batch_size
-    )
+        return (np.inf, SAMPLES, batch_size) if fits else (None, int(rows.max()), batch_size)
+    return seconds, _length(rows, spans, seconds), 1 if batch_size is None else batch_size
 
 
 def _length(rows: np.ndarray, spans: np.ndarray, seconds: float | None) -> int:
