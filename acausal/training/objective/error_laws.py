@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import jax.numpy as jnp
@@ -45,7 +45,7 @@ class ErrorLaw(ABC):
     noise: Levels = field(default_factory=dict[str, float], hash=False, kw_only=True)
 
     def __post_init__(self) -> None:
-        """Check the levels.
+        """Check the levels, and the numbers of the law.
 
         Raises:
             TrainingError: for what is not a positive number.
@@ -62,6 +62,10 @@ class ErrorLaw(ABC):
                     f"{name}: the noise of '{target}' is {shown(level)}; "
                     "give its positive standard deviation, in the target's unit."
                 )
+        for each in fields(self):
+            value, mend = getattr(self, each.name), each.metadata.get("mend")
+            if mend and not (is_number(value) and value > 0):
+                raise TrainingError(f"{name}: {each.name}={shown(value)}; {mend}")
 
     @abstractmethod
     def penalty(self, z: Float[Array, "M k"]) -> Float[Array, "M k"]:
@@ -128,12 +132,7 @@ class Huber(ErrorLaw):
         noise: levels by target, in its unit; those of other targets are estimated.
     """
 
-    delta: float = 1.345
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        super().__post_init__()
-        _need_positive("Huber", "delta", self.delta, "give a positive number of levels.")
+    delta: float = field(default=1.345, metadata={"mend": "give a positive number of levels."})
 
     def penalty(self, z: Float[Array, "M k"]) -> Float[Array, "M k"]:
         """``z²/2``, and ``δ|z| − δ²/2`` beyond δ."""
@@ -174,12 +173,7 @@ class Student(ErrorLaw):
             normal errors alone, 0.8 of their standard deviation with four degrees of freedom.
     """
 
-    nu: float = 4.0
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        super().__post_init__()
-        _need_positive("Student", "nu", self.nu, "give positive degrees of freedom.")
+    nu: float = field(default=4.0, metadata={"mend": "give positive degrees of freedom."})
 
     def penalty(self, z: Float[Array, "M k"]) -> Float[Array, "M k"]:
         """``(ν + 1)/2 log(1 + z²/ν)``."""
@@ -192,11 +186,6 @@ class Student(ErrorLaw):
     def balance(self, z: Float[Array, "M k"]) -> Float[Array, "M k"]:
         """``z² (ν + 1)/(ν + z²)``."""
         return self.weight(z) * z**2
-
-
-def _need_positive(law: str, name: str, value: Any, mend: str) -> None:
-    if not (is_number(value) and 0 < value < math.inf):
-        raise TrainingError(f"{law}: {name}={shown(value)}; {mend}")
 
 
 @dataclass(frozen=True)
