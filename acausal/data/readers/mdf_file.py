@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, SignalTable
-from acausal.errors import DataError, listing, need_package, reason, shown
+from acausal.data.readers.table import Selection, SignalTable, beginning
+from acausal.errors import DataError, listing, need_package, shown
 
 STARTS = (b"MDF     ", b"UnFinMF ")
 """What a finished file begins with, and one whose writing was broken off."""
@@ -24,12 +24,7 @@ def read_mdf(path: Path, selection: Selection) -> SignalTable:
         DataError: for a file that cannot be read, or a chosen channel that does not hold numbers.
     """
     asammdf = need_package("asammdf", "An MDF file", "mdf")
-    try:
-        with path.open("rb") as raw:
-            start = raw.read(len(STARTS[0]))
-    except OSError as e:
-        raise DataError(f"{path} cannot be read: {reason(e)}.") from None
-    if start not in STARTS:
+    if beginning(path, len(STARTS[0])) not in STARTS:
         raise DataError(f"{path} is not an MDF file: it does not begin with 'MDF'.")
     try:
         file = asammdf.MDF(path)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from acausal.data.by_signal import check_units
 from acausal.data.samples import Place, sample
-from acausal.errors import DataError, known_name, nearest, need_text, shown
+from acausal.errors import DataError, known_name, nearest, need_text, reason, shown
 from acausal.modeling import by_name, names_in
 
 HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
@@ -144,3 +145,16 @@ def seconds(times: np.ndarray, first: Any = None) -> np.ndarray:
         return times
     found = times / np.timedelta64(1, "s")
     return np.asarray(found, float)
+
+
+def beginning(path: Path, size: int) -> bytes:
+    """The first bytes of a file.
+
+    Raises:
+        DataError: if it cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            return file.read(size)
+    except OSError as e:
+        raise DataError(f"{path} cannot be read: {reason(e)}.") from None
