@@ -116,9 +116,9 @@ def _own_given(
 
 def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> dict[str, Prediction]:
     """Predictions of some records in one program; they do not know of each other."""
-    (fit, conformal), (records, x0, params) = shared, some
+    fit, conformal = shared
     system, targets = fit.system, fit.problem.targets
-    own = _own(fit, records, x0, params)
+    own = _own(fit, some)
     problem, confidence = own.problem, fit.confidence()
     least = np.array([confidence.noise[n] * np.sqrt(confidence.alike[n]) for n in targets])
     certainty = np.sqrt(np.asarray(problem.records.weight)) / np.maximum(least, 1e-300)
@@ -146,17 +146,13 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
             units=units,
         )
 
-    named = zip(records, made.values(), strict=True)
+    named = zip(some.records, made.values(), strict=True)
     return {n: one(k, replace(r, name=n)) for k, (n, r) in enumerate(named)}
 
 
-def _own(
-    fit: TrainedModel,
-    records: Mapping[str, Data],
-    x0: InitialState,
-    params: Mapping[str, Mapping[str, float]],
-) -> Own:
+def _own(fit: TrainedModel, some: _Some) -> Own:
     """What the records have for themselves, before their targets have told of it."""
+    records, x0, params = some
     # no record counts for more because of others, which are not predicted along with it
     alike = replace(fit.problem, weighting=replace(fit.problem.weighting, records="samples"))
     problem = over(alike, records, x0, measured=False)

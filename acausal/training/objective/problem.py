@@ -197,7 +197,7 @@ class Problem(Simulator):
     def draw(self, key: PRNGKeyArray, update: int | Int[Array, ""] = 0) -> Batch:
         """A random batch of sequences, see `Sequences.draw`."""
         batch = self.sequences.draw(key, update)
-        return batch.nudged(jnp.zeros((len(batch.start), len(self.system.states))))
+        return replace(batch, nudge=jnp.zeros((len(batch.start), len(self.system.states))))
 
     def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " batch"]:
         """The loss of every sequence of a batch."""

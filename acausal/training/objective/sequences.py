@@ -42,10 +42,6 @@ class Batch(eqx.Module):
     nudge: Float[Array, "batch n_states"] | None = None
     read: Window | None = None
 
-    def nudged(self, nudge: Float[Array, "batch n_states"] | None) -> Batch:
-        """The batch with other starts."""
-        return replace(self, nudge=nudge)
-
     def without(self, bad: Bool[Array, " batch"]) -> Batch:
         """The batch with some sequences (a mask) replaced by a good one with weight zero.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -171,7 +171,11 @@ def survey(
     most = max(2, SAMPLES_IN_MEMORY // max(1, len(stream)))
     beginnings: dict[str, Data] = {}
     moments, known, times, uneven = Moments(len(targets)), [], [], False
-    for name, record in _each(system, stream):
+    for name in stream:
+        try:
+            record = stream[name].for_system(system)
+        except DataError as error:
+            raise DataError(f"'{name}': {error}") from None
         if len(record) < 2:
             raise DataError(f"The record '{name}' has fewer than two samples.")
         check_resolution(record.time, precision(dtype), f"The record '{name}'")
@@ -193,15 +197,6 @@ def survey(
         moments.deviation,
         int(moments.count.sum()),
     )
-
-
-def _each(system: System, stream: Stream) -> Iterator[tuple[str, Data]]:
-    for name in stream:
-        try:
-            record = stream[name].for_system(system)
-        except DataError as error:
-            raise DataError(f"'{name}': {error}") from None
-        yield name, record
 
 
 def _known(record: Data, states: Sequence[str]) -> Int[np.ndarray, " bytes"] | None:
