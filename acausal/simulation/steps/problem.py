@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -152,9 +153,8 @@ class Integration(eqx.Module):
         if until is not None:
             until = lax.stop_gradient(until)  # `nextafter` has no derivative
             until = jnp.nextafter(until, jnp.full_like(until, -jnp.inf))
-        sides = self.field.d if d is None else d, until
-        places = lambda p: (p.field.d, p.field.until)  # noqa: E731
-        return eqx.tree_at(places, self, sides, is_leaf=lambda leaf: leaf is None)
+        d = self.field.d if d is None else d
+        return replace(self, field=replace(self.field, d=d, until=until))
 
     def apart(self, t: Float[Array, ""]) -> Float[Array, ""]:
         """How far another time must be from one to be another."""
@@ -172,7 +172,7 @@ class Integration(eqx.Module):
         low, high = lax.stop_gradient((t + self.apart(t), edge - self.apart(t)))
         f = self.field
         sided = Sided(f, low, high, system=f.system, d=f.d, until=f.until)
-        return eqx.tree_at(lambda p: p.field, self, sided)
+        return replace(self, field=sided)
 
     def behind(self, t: Float[Array, ""]) -> Integration:
         """The problem behind a time at which something has happened: an edge there is seen from its other side."""
