@@ -25,7 +25,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import Damped, after_trial, as_key, before_trials, value_and_jacobian
+from acausal._jax import Damped, after_trial, as_key, before_trials, either, value_and_jacobian
 from acausal.analysis.filtering import (
     Belief,
     Filtered,
@@ -116,9 +116,7 @@ class MovingHorizon(NamedTuple):
                 [(found.z[1] - later.mean)[None], found.noise[2:], jnp.zeros((1, m))]
             )
             full = here == count - 1
-            return jax.tree.map(
-                lambda new, old: jnp.where(full, new, old), (later, moved), (arrival, found.noise)
-            ), estimate
+            return either(full, (later, moved), (arrival, found.noise)), estimate
 
         begin = Belief(start.mean, start.covariance), jnp.zeros((count, m))
         _, found = jax.lax.scan(at, begin, jnp.arange(len(measured.y)))

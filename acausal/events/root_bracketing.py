@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from acausal._jax import either
 from acausal.events.event_formulas import Events
 
 POINTS = (0.0, 0.25, 0.5, 0.75, 1.0)
@@ -144,7 +143,7 @@ def look(
     which = jnp.argmax(share[-1])
     is_near = later & (last >= -BAND * scale)
     band = jnp.where(is_near | (jnp.arange(len(last)) == which), BAND * scale, -1.0)
-    going = jax.tree.map(partial(jnp.where, bracketing.active), gone_on, begun)
+    going = either(bracketing.active, gone_on, begun)
     return Found(
         going._replace(active=going.active & ~is_event),
         is_event,

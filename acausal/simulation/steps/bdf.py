@@ -15,7 +15,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import without_derivatives
+from acausal._jax import either, without_derivatives
 from acausal.codegen import StateJacobian
 from acausal.simulation.newton import Equation, Fields, Newton, Patience, Rates, solve
 from acausal.simulation.steps.multistep import (
@@ -191,7 +191,7 @@ class Multistep(eqx.Module):
         return Attempt(
             accepted,
             exact,
-            jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
+            either(accepted, after, before),
             dense,
             StepEquation(c, own, end, m.times, q),
             jnp.array(False),

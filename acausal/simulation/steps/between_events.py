@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import cond_any, without_derivatives
+from acausal._jax import cond_any, either, without_derivatives
 from acausal.events import (
     COINCIDE,
     POINTS,
@@ -236,7 +236,7 @@ def land(
             free=jnp.where(seen.doubted, 0, memory.free),
         )
         stays = seen.bracketing.active | (seen.part < 1)
-        kept = jax.tree.map(lambda a, b: jnp.where(stays, a, b), shorter, made.memory)
+        kept = either(stays, shorter, made.memory)
         within = (made.dense, h) if problem.forward else None
         return plain._replace(memory=kept, d=row.d, converged=jnp.array(True), within=within)
 

@@ -15,7 +15,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import cond_any, while_any, without_derivatives
+from acausal._jax import cond_any, either, while_any, without_derivatives
 from acausal.events import Ahead
 from acausal.simulation.log import Log
 from acausal.simulation.steps import between_events
@@ -129,7 +129,7 @@ def found(problem: Integration, last: LoopState, saved: Saved) -> LoopResult:
             rest = rates_behind(problem, last.t, x, last.events.d) * (problem.end - last.t)
             x = x + jnp.where(reached, rest, 0.0)
         at_end = x, last.events.d
-        saved = jax.tree.map(lambda a, b: jnp.where(left, a, b), at_end, saved)
+        saved = either(left, at_end, saved)
         log = last.events.log
     return LoopResult(saved, last.t, x, last.d, last.next, last.why, last.counts, log)
 
@@ -240,7 +240,7 @@ def advance(
         unchanged = c
         if c.events is not None and events is not None:  # the log does not grow where a run is over
             unchanged = c._replace(events=c.events._replace(log=events.log))
-        after = jax.tree.map(lambda a, b: jnp.where(runs, a, b), after, unchanged)
+        after = either(runs, after, unchanged)
         return after, saved, rows
 
     return while_any(goes_on, body, (progress, saved, rows))

@@ -13,7 +13,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import without_derivatives
+from acausal._jax import either, without_derivatives
 from acausal.simulation.steps.problem import Attempt, Counts, Integration, RightHandSide
 
 State = Float[Array, " n_states"]
@@ -185,7 +185,7 @@ class OneStep(eqx.Module):
         return Attempt(
             accepted,
             made.x,
-            jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
+            either(accepted, after, before),
             made.dense,
             (),
             is_limited,

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Int
 
-from acausal._jax import room, while_any, with_steps, without_derivatives
+from acausal._jax import either, room, while_any, with_steps, without_derivatives
 from acausal.simulation.steps.event_adjoint import (
     Adjoint,
     OfMoved,
@@ -172,7 +172,7 @@ def _back(of_moved: OfMoved, own: list[Array], kept: RecordedSteps, to: LoopResu
                     begin = jnp.where(again, restarted(problem, before.which)[0], begin)
                 return k - 1, _through_step(of_moved, own, row, begin, to, which, behind)
             after = _row(rows, jnp.minimum(k + 1, size - 1))
-            values = jax.tree.map(lambda a, b: jnp.where(k < n - 1, a, b), (after.x, after.d), then)
+            values: Any = either(k < n - 1, (after.x, after.d), then)
             through = partial(_through_event, of_moved, own, row, to, which, values)
             plain, event = (partial(through, is_event=b) for b in (False, True))
             return k - 1, lax.cond(row.kind > EDGE, event, plain, behind)

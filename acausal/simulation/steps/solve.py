@@ -6,12 +6,11 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import array, compile_ahead, compiled, known, two_modes
+from acausal._jax import array, compile_ahead, compiled, either, known, two_modes
 from acausal.errors import SimulationError
 from acausal.simulation.log import Log
 from acausal.simulation.solvers import Solver
@@ -93,7 +92,7 @@ def _goes_on(run: FirstRun, first: LoopResult, second: Method) -> Solved:
     rest = _run(second, replace(problem, until_stiff=False), again)
     earlier = (jnp.arange(len(problem.ts)) < first.next)[:, None]
     joined = rest._replace(
-        saved=jax.tree.map(lambda a, b: jnp.where(earlier, a, b), first.saved, rest.saved),
+        saved=either(earlier, first.saved, rest.saved),
         why=jnp.where(goes_on, rest.why, first.why),
         counts=first.counts.plus(rest.counts),
     )
