@@ -53,6 +53,7 @@ class Trained:
         history: the training, update by update.
         seconds: total time; ``compiling``: the part in XLA's compiler; ``updating``: the part in updates.
         interrupted: whether the user ended it.
+        failed: why its last part ended early, where its updates were rejected over and over.
         finished: whether it has converged in the last part, or has made all of its updates.
     """
 
@@ -63,6 +64,7 @@ class Trained:
     compiling: float
     updating: float
     interrupted: bool
+    failed: str | None
     finished: bool
 
     def then(self, later: Trained, parts: int) -> Trained:
@@ -89,10 +91,12 @@ class Member:
     Attributes:
         best: its best state.
         before: its updates before the present part of the strategy.
+        failed: why that part has ended, as of `Trained`.
     """
 
     best: Best
     before: int = 0
+    failed: str | None = None
 
     def __init__(self, problem: Problem, held: Problem | None, key: PRNGKeyArray) -> None:
         self.problem, self.held, self.key = problem, held, key

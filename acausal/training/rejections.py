@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal.errors import TrainingError
 from acausal.networks import output_scale
 from acausal.simulation import Adaptive
 from acausal.training.history import TrainingLog
@@ -27,20 +26,17 @@ MOST = 4
 """Networks whose scales a message tells."""
 
 
-def check_rejections(log: TrainingLog, rejected: int, problem: Problem, tried: Trainable) -> None:
-    """Check how many updates were rejected in a row.
+def too_many(log: TrainingLog, rejected: int, problem: Problem, tried: Trainable) -> str | None:
+    """A sentence on updates that were rejected in a row, if there are too many of them.
 
     Arguments:
         log: of the training.
         rejected: how many.
         problem: over whole records.
         tried: what the last of them tried.
-
-    Raises:
-        TrainingError: if there are too many.
     """
     if rejected < REJECTIONS:
-        return
+        return None
     first = log.epochs - rejected
     sequences = [d for d in log.divergences if d.epoch >= first and d.count]
     if sequences:
@@ -59,7 +55,7 @@ def check_rejections(log: TrainingLog, rejected: int, problem: Problem, tried: T
     else:
         what = "the gradient is not finite"
         mend = "Lower the optimizer's rate, or clip the gradient."
-    raise TrainingError(
+    return (
         f"{rejected} updates in a row were rejected from epoch {first} on: {what}. {mend.lstrip()}"
     )
 

@@ -51,6 +51,7 @@ class Stage(NamedTuple):
         onward: whether the next part goes on from its end, and not from the best over the whole record.
         gain: it ends when an evaluation is not better by this part than the one before.
         every: updates between two evaluations, where the options do not say; ``None`` for a tenth of its updates.
+        may_fail: whether updates that are rejected over and over end it, and not the whole training.
     """
 
     kind: str
@@ -62,6 +63,7 @@ class Stage(NamedTuple):
     onward: bool = False
     gain: float = 0.0
     every: int | None = None
+    may_fail: bool = False
 
 
 class Segment(NamedTuple):

@@ -73,6 +73,9 @@ def run(
             shorter = run(pieces, prefix=prefix)
             if max(fit.loss for fit in shorter) < max(one.best.loss for one in trained):
                 return shorter
+    for one in trained:
+        if one.failed is not None and not np.isfinite(one.best.loss):
+            raise TrainingError(one.failed)
     errors = _step_errors(training, problems, trained)
     if (step := _finer(training, problems, trained, errors)) is not None:
         finer = _in_steps(training, step)
@@ -135,9 +138,14 @@ def _in_pieces(
     cut, bests = training.automatic.pieces > 0, [one.best for one in trained]
     lengths = [
         length_of_pieces(own, best.trainable, best.simulated, QUARTER if cut else HALF)
-        for own, best in zip(problems, bests, strict=True)
+        for own, best, one in zip(problems, bests, trained, strict=True)
         if not explains(own, best.loss, noise_loss(own.records, best.simulated.y))
-        and (cut or is_sensitive(own, best.trainable, best.simulated) or not np.isfinite(best.loss))
+        and (
+            cut
+            or one.failed is not None
+            or is_sensitive(own, best.trainable, best.simulated)
+            or not np.isfinite(best.loss)
+        )
     ]
     if not lengths:
         return None

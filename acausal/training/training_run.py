@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, PRNGKeyArray
 
+from acausal.errors import TrainingError
 from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
 from acausal.training.history import Divergence
 from acausal.training.member import Best, Member, Trained, stacked, unstacked
@@ -32,7 +33,7 @@ from acausal.training.optimizers.trainer import (
 )
 from acausal.training.progress import Observer, Progress
 from acausal.training.read_ahead import Ready, read_ahead
-from acausal.training.rejections import check_rejections
+from acausal.training.rejections import too_many
 from acausal.training.starts import Halving
 from acausal.training.strategy import Segment
 
@@ -90,7 +91,7 @@ class TrainingRun:
             stored: the checkpoint to continue from; ``None`` to start anew.
 
         Raises:
-            TrainingError: if `REJECTIONS` updates in a row had to be rejected.
+            TrainingError: if `REJECTIONS` updates in a row had to be rejected, in a stage that may not fail.
             DataError: if the checkpoint belongs to another training.
         """
         interrupted = False
@@ -119,6 +120,7 @@ class TrainingRun:
                 member.log.history(),
                 *times,
                 interrupted,
+                member.failed,
                 finished=not interrupted and (k in self.going or self.converged[k]),
             )
             for k, (member, end) in enumerate(
@@ -151,7 +153,7 @@ class TrainingRun:
         """The trainer's state at the start of a segment."""
         self.before = self.done
         for member in self.members:
-            member.before = member.log.epochs
+            member.before, member.failed = member.log.epochs, None
         entries = [m.best.trainable for m in self.members]
         if i and self.segments[i - 1].stage.onward and self.last == i - 1:
             entries = unstacked(self.candidates[-1], len(self.members))
@@ -259,7 +261,10 @@ class TrainingRun:
             log = self.members[k].log
             if counts[k]:
                 new += log.add(entry, counts[k], started, ended, self.last)
-                check_rejections(log, rejected[k], self.members[k].problem, tried[k])
+                failed = too_many(log, rejected[k], self.members[k].problem, tried[k])
+                if failed and not self.segments[self.last].stage.may_fail:
+                    raise TrainingError(failed)
+                self.members[k].failed = failed
         self.done += max(counts)
         self.candidates = candidates(state)
         return new
@@ -295,6 +300,7 @@ class TrainingRun:
         patience = math.inf if segment.patience is None else segment.patience
         return all(
             bool(ended[k])
+            or self.members[k].failed is not None
             or self.members[k].evaluations_without_improvement() >= patience
             or self.members[k].gained_less(segment.stage.gain)
             for k in self.going

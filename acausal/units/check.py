@@ -27,7 +27,7 @@ from acausal.flattening import (
     tiled,
 )
 from acausal.modeling import Declaration, Module
-from acausal.units.dimensions import SECOND, Dimension, described, dimension
+from acausal.units.dimensions import NUMBER, SECOND, Dimension, described, dimension
 from acausal.units.infer import Finding, Signature, SlotDimensions, examine, is_small
 
 MAX_LISTED = 12
@@ -225,6 +225,8 @@ def _hint(template: Statement, slots: SlotDimensions, finding: Finding) -> str:
     """A likely remedy for the equation: another unit of a parameter, or a derivative."""
     own = [(s, d) for s, d in slots if s in template.parameters and "." not in str(s)]
     found: list[str] = []
+    if finding.excess.exponents == NUMBER.exponents:
+        return "; equations do not convert units: declare both in one, or write the conversion as a number"
     for (symbol, given), power in product(own, (1, -1)):
         if not isinstance(given, Dimension):
             continue
@@ -232,7 +234,7 @@ def _hint(template: Statement, slots: SlotDimensions, finding: Finding) -> str:
         if examine(template.residual, tuple({**dict(slots), symbol: meant}.items())) is None:
             found = [f"should '{symbol}' be in {described(meant)}"]
             break
-    if finding.excess in (SECOND, SECOND**-1):
+    if finding.excess.exponents in (SECOND.exponents, (SECOND**-1).exponents):
         found.append("is a der(...) missing or one too many")
     return f"; {', or '.join(found)}?" if found else ""
 

@@ -1,4 +1,4 @@
-"""Dimensions of units: ``"N.m/rad"`` as exponents of the SI's base units.
+"""Dimensions of units: ``"N.m/rad"`` as exponents of the SI's base units, and how large a unit is.
 
 Tables here hold the usual units of models; the others come from pint. To use pint for all of them would be slow: its
 import and registry take 0.5 s in every process that compiles a model, whereas the 75 units of the library are read here
@@ -7,8 +7,9 @@ in 5 ms, and the quarter vehicle is checked in 1.3 ms. The tests compare the tab
 
 from __future__ import annotations
 
+import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -33,7 +34,17 @@ DERIVED = {
 }  # fmt: skip
 """Further symbols of units in Modelica, and a unit of the same dimension, perhaps of another scale."""
 
-PREFIXES = ("da", *"YZEPTGMkhdcmunpfazy")
+FACTORS = {"deg": math.pi / 180, "rev": 2 * math.pi, "g": 1e-3, "t": 1e3, "l": 1e-3, "bar": 1e5, "mbar": 1e2,
+           "eV": 1.602176634e-19, "min": 60.0, "h": 3600.0, "d": 86400.0, "degF": 5 / 9, "degR": 5 / 9}  # fmt: skip
+"""Symbols that are not of the SI's scale, and how many of the SI's units each is."""
+
+ZEROS = {"degC": 273.15, "degF": 459.67 * 5 / 9}
+"""Where the scales of temperatures begin [K]."""
+
+PREFIXES = {
+    "da": 1e1, "Y": 1e24, "Z": 1e21, "E": 1e18, "P": 1e15, "T": 1e12, "G": 1e9, "M": 1e6, "k": 1e3, "h": 1e2,
+    "d": 1e-1, "c": 1e-2, "m": 1e-3, "u": 1e-6, "n": 1e-9, "p": 1e-12, "f": 1e-15, "a": 1e-18, "z": 1e-21, "y": 1e-24,
+}  # fmt: skip
 PREFIXED = (*BASE, "g", "N", "Pa", "J", "W", "V", "Ohm", "S", "C", "F", "H", "Wb", "T", "Hz", "l",
              "eV", "rad")  # fmt: skip
 """Symbols that a prefix may precede."""
@@ -67,23 +78,52 @@ Exponent = int | Fraction
 
 @dataclass(frozen=True)
 class Dimension:
-    """A product of powers of the base units, in the order of `BASE`."""
+    """A product of powers of the base units, in the order of `BASE`, and the unit in which it is counted.
+
+    Attributes:
+        factor: how many of the SI's units that unit is; NaN where it is not known.
+        zero: where its scale begins [K]; None where that is not known, as for differences and products.
+        name: of the unit, as it was read.
+    """
 
     exponents: tuple[Exponent, ...]
+    factor: float = field(default=1.0, compare=False)
+    zero: float | None = field(default=None, compare=False)
+    name: str = field(default="", compare=False)
+    scale: tuple[str, float] = field(init=False)  # without roundoff
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "scale", (f"{self.factor:.9g}", self.zero or 0.0))
 
     def __mul__(self, other: Dimension) -> Dimension:
-        return Dimension(tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)))
+        exponents = tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True))
+        return Dimension(exponents, self.factor * other.factor)
 
     def __truediv__(self, other: Dimension) -> Dimension:
         return self * other**-1
 
     def __pow__(self, exponent: Exponent) -> Dimension:
         whole = exponent.numerator if exponent.denominator == 1 else exponent
-        return Dimension(tuple(a * whole for a in self.exponents))
+        return Dimension(tuple(a * whole for a in self.exponents), self.factor ** float(exponent))
 
     def __str__(self) -> str:
-        """A unit of that dimension as a person writes it: ``"N.m"``, ``"A.s2/kg"``, ``"1"``."""
-        return _usual().get(self) or _spelled(self)
+        """A unit as a person writes it: ``"N.m"``, ``"A.s2/kg"``, ``"1"``, ``"bar"``, ``"0.001 m/s"``."""
+        if (self.factor == 1.0 or math.isnan(self.factor)) and not self.zero:
+            return _usual().get(self.exponents) or _spelled(self)
+        return self.name or f"{self.factor:.6g} {self.in_si()}".removesuffix(" 1")
+
+    def in_si(self) -> Dimension:
+        """The SI's unit."""
+        return Dimension(self.exponents)
+
+    def agrees(self, other: Dimension) -> bool:
+        """Whether both are counted in one unit, as far as their factors are known."""
+        unknown = math.isnan(self.factor * other.factor)
+        return self.exponents == other.exponents and (unknown or self.scale[0] == other.scale[0])
+
+    def is_on_scale_of(self, other: Dimension) -> bool:
+        """Whether both scales begin at one point, as far as these are known."""
+        return self.zero is None or other.zero is None or self.zero == other.zero
 
 
 NUMBER = Dimension((0,) * len(BASE))
@@ -105,8 +145,8 @@ def dimension(text: str) -> Dimension | None:
 
 def described(measured: Dimension) -> str:
     """A unit and what it measures, for a message: ``"N (force)"``."""
-    unit = str(measured)
-    return f"{unit} ({QUANTITIES[unit]})" if unit in QUANTITIES else unit
+    unit, si = str(measured), str(measured.in_si())
+    return f"{unit} ({QUANTITIES[si]})" if si in QUANTITIES else unit
 
 
 # -- reading ---------------------------------------------------------------------------------------
@@ -121,7 +161,8 @@ def _read(text: str) -> Dimension:
     found = NUMBER
     for symbol, power in factors:
         found *= _symbol(symbol, text) ** power
-    return found
+    alone = len(factors) == 1 and factors[0][1] == 1
+    return replace(found, name=text, zero=ZEROS.get(factors[0][0], 0.0) if alone else None)
 
 
 def _no_unit(text: str, meant: str | None = None) -> UnitError:
@@ -135,7 +176,7 @@ def _symbol(symbol: str, text: str) -> Dimension:
     if known is not None:
         return known
     alike, found = _lookalike(symbol), _of_pint(symbol)
-    if found is None or (alike is not None and _read(alike) != found):
+    if found is None or (alike is not None and _read(alike).exponents != found.exponents):
         raise _no_unit(text, text.replace(symbol, alike) if alike else None)
     return found
 
@@ -146,11 +187,11 @@ def _known(symbol: str) -> Dimension | None:
     if symbol in BASES:
         return BASES[symbol]
     if symbol in DERIVED:
-        return _read(DERIVED[symbol])
-    for prefix in PREFIXES:
+        return replace(_read(DERIVED[symbol]), factor=FACTORS.get(symbol, 1.0))
+    for prefix, factor in PREFIXES.items():
         rest = symbol.removeprefix(prefix)
-        if rest != symbol and rest in PREFIXED:
-            return _known(rest)
+        if rest != symbol and rest in PREFIXED and (known := _known(rest)) is not None:
+            return known * Dimension(NUMBER.exponents, factor)
     return None
 
 
@@ -165,19 +206,24 @@ def _lookalike(symbol: str) -> str | None:
 def _of_pint(symbol: str) -> Dimension | None:
     """The dimension of a symbol that only pint knows: ``"ft"``, ``"lbf"``, ``"newton"``; None for no unit."""
     try:
-        powers: dict[str, Any] = dict(pint_unit(symbol).dimensionality)
+        unit = pint_unit(symbol)
     except SpellingError:
         return None
+    powers: dict[str, Any] = dict(unit.dimensionality)
     exponents = tuple(Fraction(powers.pop(name, 0)) for name in BASE.values())
-    return None if powers else Dimension(exponents)
+    ones = registry().Quantity(1.0, unit)
+    plain = ones._is_multiplicative  # not decibels, for example
+    return (
+        None if powers else Dimension(exponents, ones.to_base_units().magnitude if plain else None)
+    )
 
 
 # -- writing ---------------------------------------------------------------------------------------
 
 
 @cache
-def _usual() -> dict[Dimension, str]:
-    return {_read(unit): unit for unit in QUANTITIES}
+def _usual() -> dict[tuple[Exponent, ...], str]:
+    return {_read(unit).exponents: unit for unit in QUANTITIES}
 
 
 def _spelled(measured: Dimension) -> str:

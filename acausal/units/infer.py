@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, lru_cache
 from typing import Any
@@ -122,28 +122,43 @@ class _Walk:
         found = self.seen[part] = _rule(type(part))(self, part)
         return found
 
-    def common(self, parts: Iterable[Any]) -> Dimension | None:
-        """The one dimension that all parts have."""
+    def common(self, parts: Iterable[Any], are_summed: bool = False) -> Dimension | None:
+        """The one unit that all parts have; temperatures that are not summed are on one scale, too."""
         first: Any = None
         found: Dimension | None = None
         for part in parts:
             here = self.of(part)
-            if here is None or here == found:
+            if here is None:
                 continue
-            if found is not None:
-                raise _Unlike(
-                    f"{_quoted(first)} is in {described(found)} but {_quoted(part)} in {described(here)}",
-                    here / found,
-                )
-            first, found = part, here
+            if found is None:
+                first, found = part, here
+            elif not (
+                (found.agrees(here) or _converts(found, here, first, part))
+                and (are_summed or found.is_on_scale_of(here))
+            ):
+                raise _apart(first, found, part, here)
         return found
 
     def pure(self, part: Any, role: str) -> Dimension | None:
         """A part that must be a pure number; an expression of the time alone may be one, as in ``sin(time)``."""
         found = None if part.free_symbols == {time} else self.of(part)
-        if found is not None and found != NUMBER:
+        if found is not None and not found.agrees(NUMBER):
             raise _wrong(f"{role} {_quoted(part)}", found, NUMBER)
         return found
+
+
+def _apart(first: Any, found: Dimension, part: Any, here: Dimension) -> _Unlike:
+    reason = f"{_quoted(first)} is in {described(found)} but {_quoted(part)} in {described(here)}"
+    return _Unlike(reason, here / found)
+
+
+def _converts(found: Dimension, here: Dimension, *terms: Any) -> bool:
+    """Whether the number before a term converts one unit to the other: ``10*x``, in m and dm."""
+    if found.exponents != here.exponents:
+        return False
+    numbers = (abs(term.as_coeff_Mul()[0]) for term in terms)
+    ratio = here.factor / found.factor
+    return any(math.isclose(n, r, rel_tol=1e-9) for n in numbers for r in (ratio, 1 / ratio))
 
 
 def _wrong(name: str, found: Dimension, wanted: Dimension) -> _Unlike:
@@ -165,6 +180,23 @@ DimensionRule = Callable[[_Walk, Any], Dimension | None]
 
 def _alike(walk: _Walk, expression: Any) -> Dimension | None:
     return walk.common(expression.args)
+
+
+def _sum(walk: _Walk, expression: Any) -> Dimension | None:
+    """A sum; temperatures on two scales are added only as differences on each, or beside a number such as 273.15."""
+    found = walk.common(expression.args, are_summed=True)
+    found = None if found is None else replace(found, zero=None)
+    terms: dict[float, list[tuple[Any, Any, Dimension]]] = {}
+    for part in expression.args:
+        factor, term = part.as_coeff_Mul()
+        here = walk.of(term)
+        if here is None or here.zero is None:
+            return found
+        terms.setdefault(here.zero, []).append((factor, term, here))
+    if len(terms) > 1 and all(abs(sum(n for n, *_ in same)) > 1e-9 for same in terms.values()):
+        (_, *first), (_, *other) = (same[0] for same in [*terms.values()][:2])
+        raise _apart(*first, *other)
+    return found
 
 
 def _parts(walk: _Walk, expression: Any) -> None:
@@ -194,7 +226,9 @@ def _product(walk: _Walk, expression: Any) -> Dimension | None:
     is_formula = len(quantities) > 1 or not numbers or any(n.is_irrational for n in numbers)
     if len(known) < len(quantities) or not (is_formula and all(map(is_small, numbers))):
         return None
-    return math.prod(known, start=NUMBER)
+    found = known[0] if len(known) == 1 else math.prod(known, start=NUMBER)
+    converts = found.factor != 1.0 and any(n.is_irrational for n in numbers)  # 2*pi*n, n in rev/s
+    return replace(found, factor=math.nan) if converts else found
 
 
 def _power(walk: _Walk, expression: Any) -> Dimension | None:
@@ -206,7 +240,7 @@ def _power(walk: _Walk, expression: Any) -> Dimension | None:
     varied = walk.pure(exponent, f"the exponent of {_quoted(base)},")
     if varied is not None:
         walk.pure(base, f"the base of {_quoted(expression)},")
-    return NUMBER if base.is_number or found == NUMBER else None
+    return NUMBER if base.is_number or (found is not None and found.agrees(NUMBER)) else None
 
 
 def _cases(walk: _Walk, expression: Any) -> Dimension | None:
@@ -222,7 +256,7 @@ def _prescribed(walk: _Walk, expression: Any) -> Dimension | None:
         here = walk.of(signal)
         if here is None:
             continue
-        if found is not None and here * SECOND**n != found:
+        if found is not None and not found.agrees(here * SECOND**n):
             name = f"{_quoted(signal)}, derivative {n} of {_quoted(signals[0])},"
             raise _wrong(name, here, found / SECOND**n)
         found = here * SECOND**n
@@ -237,7 +271,9 @@ def _call(walk: _Walk, expression: Any) -> Dimension | None:
     found = signature.result
     for i, (argument, order) in enumerate(zip(arguments, orders, strict=True)):
         here, takes = walk.of(argument), declared.get(i)
-        if here is not None and takes is not None and here != takes:
+        if (here is not None and takes is not None) and not (
+            takes.agrees(here) and takes.is_on_scale_of(here)
+        ):
             raise _wrong(f"argument {i + 1} of '{module}', {_quoted(argument)},", here, takes)
         if order:
             divisor = here or takes
@@ -246,7 +282,7 @@ def _call(walk: _Walk, expression: Any) -> Dimension | None:
 
 
 RULES: dict[type, DimensionRule] = {
-    sp.Add: _alike,
+    sp.Add: _sum,
     sp.Mul: _product,
     sp.Pow: _power,
     sp.Piecewise: _cases,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from typing import Any
@@ -10,7 +11,6 @@ import numpy as np
 
 from acausal.errors import DataError, UnitError
 from acausal.units.dimensions import BASE, dimension, pint_unit, registry
-from acausal.units.spelling import SpellingError, factors_of
 
 Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -29,19 +29,14 @@ def convert(values: Numbers, given: str, wanted: str, what: str) -> Numbers:
         return values
     source, target = (BETWEEN.sub(".", unit.strip()) or "1" for unit in (given, wanted))
     try:
-        is_convertible = dimension(source) == dimension(target)
+        dimensions = [found and found.exponents for found in map(dimension, (source, target))]
     except UnitError as e:
         reason = str(e).replace(f"'{source}'", f"'{given}'")
         raise DataError(f"{what}: {reason}") from None
-    if not is_convertible:
+    if dimensions[0] != dimensions[1]:
         raise DataError(f"{what} is given in '{given}', which cannot become '{wanted or '1'}'.")
     quantity = registry().Quantity(values, pint_unit(source))
     return np.asarray(quantity.to(pint_unit(target)).magnitude, np.float64)
-
-
-COHERENT = {"kg", "m", "s", "A", "K", "mol", "cd", "rad", "sr", "N", "Pa", "J", "W", "V", "Ohm", "S", "C", "F", "H",
-            "Wb", "T", "Hz"}  # fmt: skip
-"""Symbols with the factor 1."""
 
 
 @dataclass(frozen=True)
@@ -64,29 +59,12 @@ def in_si(unit: str) -> InSI | None:
         unit: for example ``"N.m/rad"``; radians count as pure numbers.
     """
     try:
-        measured, factors = dimension(unit), factors_of(unit)
-    except (UnitError, SpellingError):
+        measured = dimension(unit)
+    except UnitError:
         return None
     if measured is None or any(e.denominator != 1 for e in measured.exponents):
         return None
-    factor, offset = 1.0, 0.0
-    for symbol, power in factors:
-        if symbol in COHERENT:
-            continue
-        scale = _scale(symbol)
-        if scale is None:
-            return None
-        factor *= scale[0] ** float(power)
-        if len(factors) == 1 and power == 1:
-            offset = scale[1]
-    exponents = {s: int(e) for s, e in zip(BASE, measured.exponents, strict=True) if e}
-    return InSI(exponents, factor, offset)
-
-
-def _scale(symbol: str) -> tuple[float, float] | None:
-    """Factor and offset from a symbol to the base units."""
-    try:
-        at = convert(np.array([0.0, 1.0]), symbol, str(dimension(symbol)), symbol)
-    except DataError:
+    if math.isnan(measured.factor):
         return None
-    return float(f"{at[1] - at[0]:.12g}"), float(f"{at[0]:.12g}")
+    exponents = {s: int(e) for s, e in zip(BASE, measured.exponents, strict=True) if e}
+    return InSI(exponents, float(f"{measured.factor:.12g}"), measured.zero or 0.0)

@@ -310,7 +310,9 @@ def _stages(
         lengths = [int(begun * grows**k) for k in range(max(count, 0))]
         windows = [part._replace(rows=n, title=f"first {n} samples") for n in lengths]
     if not explains:
-        return (*windows, *ends)
-    if noise is None or not names:
-        return (whole,)
-    return (*ends, *(stage._replace(above=enough) for stage in (*windows, *ends)))
+        planned = (*windows, *ends)
+    elif noise is None or not names:
+        planned = (whole,)
+    else:
+        planned = (*ends, *(stage._replace(above=enough) for stage in (*windows, *ends)))
+    return tuple(stage._replace(may_fail=True) for stage in planned)
