@@ -152,24 +152,11 @@ class Records(eqx.Module):
         counts = np.minimum(last - first + 1, rows)
         chosen = np.concatenate([a + np.arange(n) for a, n in zip(first, counts, strict=True)])
 
-        def cut(a: Array) -> Array:
-            return a[chosen] if a.ndim else a
-
-        rest = (self.steps, self.y, self.weight, self.x, self.of, self.sampled)
-        steps, y, weight, x, of, sampled = jax.tree.map(cut, rest)
+        rows_each = ("steps", "y", "weight", "x", "of", "sampled")
+        parts = {name: getattr(self, name) for name in rows_each}
+        parts = jax.tree.map(lambda a: a[chosen] if a.ndim else a, parts)
         ends = jnp.asarray(np.cumsum(counts) - 1)
-        starts = ends - counts + 1
-        return replace(
-            self,
-            steps=steps,
-            y=y,
-            weight=weight,
-            x=x,
-            of=of,
-            sampled=sampled,
-            first=starts,
-            last=ends,
-        )
+        return replace(self, **parts, first=ends - counts + 1, last=ends)
 
     def rows_of(self, record: int) -> Int[np.ndarray, " n"]:
         """The rows of a record that hold samples."""

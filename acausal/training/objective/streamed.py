@@ -58,11 +58,6 @@ class Streamed:
     samples: int
 
     @property
-    def spans(self) -> Float[np.ndarray, " R"]:
-        """From the first to the last sample of each record, in seconds."""
-        return self.ends[:, 1] - self.ends[:, 0]
-
-    @property
     def first(self) -> Int[np.ndarray, " R"]:
         """The first row of each record, among those of all."""
         return np.cumsum(self.rows) - self.rows
@@ -96,9 +91,8 @@ class Streamed:
         lacking: Sequence[str],
     ) -> Sequences:
         """How sequences are drawn; arguments and errors as of `acausal.training.objective.sequences.cut`."""
-        seconds, n, batch_size = batch_sizes(
-            self.rows, self.spans, not lacking, seconds, batch_size
-        )
+        spans = self.ends[:, 1] - self.ends[:, 0]
+        seconds, n, batch_size = batch_sizes(self.rows, spans, not lacking, seconds, batch_size)
         if seconds is None:
             raise DataError(
                 "The records of a stream are trained in sequences: give their sequence_length= in seconds."
