@@ -45,6 +45,16 @@ def own(stated: Any, variables: str = "x", **attributes: Any) -> ac.System:
     return ac.compile(Equations(variables, stated, **attributes))
 
 
+class Clipped(ac.Component):
+    """One law twice, with a condition that is an event, and none for a force."""
+
+    x, y, f = ac.Variable(start=1.0), ac.Variable(), ac.Variable()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        law = ac.where(self.x > 0.2, 1, self.x**2, events=True)
+        yield from (ac.Eq(ac.der(self.x), -1), ac.Eq(self.y, law), ac.Eq(law - self.y, 0))
+
+
 class Started(ac.Component):
     """One decaying variable with a fixed start and initial equations."""
 
@@ -240,6 +250,11 @@ GALLERY: dict[str, Wrong] = {
             "'v (ConstantVoltage: v = V)'",
             "in parallel",
         ),
+    ),
+    "a law with an event stated twice": (
+        lambda: compiled(clipped=Clipped()),
+        ac.StructureError,
+        ("undetermined: 'clipped.f'", "Piecewise((1, x > 0.2), (x**2, True))"),
     ),
     "two current sources in series": (
         lambda: compiled(

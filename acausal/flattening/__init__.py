@@ -18,12 +18,11 @@ from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as fla
 from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.leaves_caches import LeavesCaches as LeavesCaches
-from acausal.flattening.origin import Origin as Origin
+from acausal.flattening.origin import Origin as Origin, is_hidden as is_hidden
 from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,
 )
-from acausal.flattening.stated import is_hidden as is_hidden
 from acausal.flattening.sums import Statement as Statement
 from acausal.flattening.template import Integers as Integers, Template as Template
 from acausal.flattening.templates import FEW_VARIANTS as FEW_VARIANTS

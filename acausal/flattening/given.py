@@ -12,7 +12,7 @@ from acausal.errors import DeclarationError, nearest, shown
 from acausal.flattening.connections import zeros
 from acausal.flattening.equation_group import UpdateGroup
 from acausal.flattening.flat_model import FlatModel
-from acausal.flattening.stated import is_hidden
+from acausal.flattening.origin import is_hidden
 from acausal.flattening.template import Integers
 from acausal.modeling import names_in
 

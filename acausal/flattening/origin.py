@@ -11,10 +11,18 @@ import sympy as sp
 
 from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.template import slot
-from acausal.modeling import Component, Eq, references
+from acausal.modeling import HALF, Component, Eq, references
 
 Origins = np.ndarray[Any, np.dtype[np.object_]]
 """An `Origin` for every instance."""
+
+HIDDEN = "_event"
+"""How the names of hidden discrete variables begin."""
+
+
+def is_hidden(name: str) -> bool:
+    """Whether a variable is one of a watched condition, which users do not see."""
+    return name.rpartition(".")[2].startswith(HIDDEN)
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,10 +70,16 @@ class Origin(LeavesCaches):
 
 
 def _with_names(equation: Eq, owner: Component) -> Eq:
-    """The equation with dotted names for the variables and parameters of parts, also where it says nothing (x = x)."""
+    """The equation with dotted names for the variables and parameters of parts, also where it says nothing (x = x).
+
+    Hidden variables of conditions are these conditions again.
+    """
     names: dict[sp.Basic, sp.Basic] = {}
     for reference in {*references(equation.lhs), *references(equation.rhs)}:
-        if route := reference.owner.route_from(owner._node):
+        if is_hidden(reference.path) and (meaning := reference.declaration.doc):
+            names[sp.Gt(reference, HALF)] = names[reference] = sp.Symbol(meaning)
+            names[sp.Le(reference, HALF)] = sp.Symbol(f"not ({meaning})")
+        elif route := reference.owner.route_from(owner._node):
             names[reference] = slot(".".join((*route, reference.path)))
     if not names:
         return equation

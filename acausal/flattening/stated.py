@@ -14,6 +14,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from acausal.errors import DeclarationError
+from acausal.flattening.origin import HIDDEN
 from acausal.flattening.silent import Silent
 from acausal.modeling import (
     HALF,
@@ -34,15 +35,6 @@ from acausal.modeling import (
     number_or_truth,
     time,
 )
-
-HIDDEN = "_event"
-"""How the names of hidden discrete variables begin."""
-
-
-def is_hidden(name: str) -> bool:
-    """Whether a variable is one of a watched condition, which users do not see."""
-    return name.rpartition(".")[2].startswith(HIDDEN)
-
 
 TINY = sp.Float(1e-60)
 """No period is shorter [s]."""
@@ -297,7 +289,7 @@ class _Sorting:
             lhs, rhs = literal(relation.lhs), literal(relation.rhs)
             value: Any = lhs - rhs if above else rhs - lhs
             strict = isinstance(relation, sp.Gt | sp.Lt)
-            target = self.known[relation] = self._new("bool")
+            target = self.known[relation] = self._new("bool", str(relation))
             self.guards.append(GuardStatement(target, self._ticking(value), str(relation), strict))
         return self.known[relation]
 
@@ -309,7 +301,7 @@ class _Sorting:
         """
         key = Floored(number, sp.S.Zero)
         if key not in self.known:
-            n = self.known[key] = self._new("int")
+            n = self.known[key] = self._new("int", f"floor({number})")
             before, number = Previous(n), self._ticking(literal(number))
             ends = 2 * sp.floor((before + 1) / 2), 2 * sp.floor(before / 2) + 1
             passed: list[Any] = []
@@ -364,8 +356,9 @@ class _Sorting:
             self.updates[now] = UpdateStatement(now, sp.Piecewise((1, just), (0, True)), str(tick))
         return self.known[tick]
 
-    def _new(self, kind: Any) -> Reference:
-        declaration = Discrete(0, kind=kind)
+    def _new(self, kind: Any, meaning: str = "") -> Reference:
+        """A hidden variable; what it means is for messages."""
+        declaration = Discrete(0, kind=kind, doc=meaning)
         path = f"{HIDDEN}[{len(self.hidden) + 1}]"
         declaration.name = path
         self.hidden.append((path, declaration))

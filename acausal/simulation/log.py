@@ -63,7 +63,8 @@ class Event(NamedTuple):
     def __str__(self) -> str:
         """In words."""
         condition = CLOCK.sub(lambda one: f"time reaches {one[1] or one[2]}", self.condition)
-        words = f"t = {self.t:.9g} s: {self.effect or condition}"
+        digits = 9 if abs(self.t) < 1e6 else 14  # seconds of a calendar
+        words = f"t = {self.t:.{digits}g} s: {self.effect or condition}"
         if not self.grazes:
             return words
         return (

@@ -181,3 +181,8 @@ def test_many_columns_leave_values_of_few_events() -> None:
     assert kept.t.tolist() == [1.0, 2.0]
     assert kept.before.tolist() == [[1.0, 1.0, 0.0]]
     assert len(log.t) == LOG
+
+
+def test_events_at_seconds_of_a_calendar_have_a_time_each() -> None:
+    at = [str(Event(1.7e9 + t, "x > 2", "", {}, {})) for t in (0.25, 0.5)]
+    assert at == ["t = 1700000000.25 s: x > 2", "t = 1700000000.5 s: x > 2"]
