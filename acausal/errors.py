@@ -113,19 +113,27 @@ def nearest(name: object, known: Iterable[str]) -> str:
 
 
 def known_name(
-    name: object, known: Collection[str], refusal: str, error: type[AcausalError] = DataError
+    name: object,
+    known: Collection[str],
+    refusal: str,
+    error: type[AcausalError] = DataError,
+    then: str = ":",
 ) -> str:
     """A name that is known, as such.
 
     Arguments:
-        name: what the user gave. known: the names. refusal: such as ``"there is no record"``.
+        name: what the user gave. known: the names.
+        refusal: such as ``"there is no record"``. then: what follows the name there, before the nearest known one.
 
     Raises:
         AcausalError: of the class ``error``, for any other name, and for what is no name.
     """
     if isinstance(name, str) and name in known:
         return name
-    raise error(f"{refusal} {shown(name)}: {nearest(name, known)}")
+    wrong = (
+        str(name) if isinstance(name, str) else name
+    )  # as NumPy's texts, which it writes otherwise
+    raise error(f"{refusal} {shown(wrong)}{then} {nearest(name, known)}")
 
 
 def need_compiled(system: object, function: str) -> None:

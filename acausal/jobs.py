@@ -159,11 +159,6 @@ def _done(shared: bytes, sent: bytes) -> bytes:
         return pickle.dumps((None, error))
 
 
-@lru_cache(maxsize=2)
-def _received(shared: bytes) -> Any:
-    return _unpacked(shared)
-
-
 def _unpacked(sent: bytes) -> Any:
     try:
         return pickle.loads(sent)
@@ -172,6 +167,9 @@ def _unpacked(sent: bytes) -> Any:
             f"A worker cannot read its task: {error}. Define the model's classes and functions in a module that "
             "workers can import."
         ) from error
+
+
+_received = lru_cache(maxsize=2)(_unpacked)
 
 
 def _packed(thing: object, name: str) -> bytes:

@@ -41,7 +41,7 @@ from acausal.codegen import (
     rates_and_read,
     read,
 )
-from acausal.errors import DataError, ModelError, nearest, need_flag, shown, user_level
+from acausal.errors import DataError, ModelError, known_name, nearest, need_flag, shown, user_level
 from acausal.events import Edges, Events, generate_events, start_of
 from acausal.flattening import (
     FlatModel,
@@ -609,10 +609,7 @@ class System(LeavesCaches):
         if u is None or isinstance(u, Mapping):
             given = dict(u or {})
             for name in given:
-                if name not in self.inputs:
-                    raise DataError(
-                        f"{argument}: '{name}' is not an input; {nearest(name, self.inputs)}"
-                    )
+                known_name(name, self.inputs, f"{argument}:", then=" is not an input;")
             numbers: Any = [given.get(n, self.input_defaults.get(n, 0.0)) for n in self.inputs]
         else:
             numbers = u

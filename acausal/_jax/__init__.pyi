@@ -44,6 +44,7 @@ from .scan import Restarts as Restarts, stored_scan as stored_scan
 from .settings import configure as configure, need_double_precision as need_double_precision
 from .side_by_side import (
     cond_any as cond_any,
+    either as either,
     one_by_one as one_by_one,
     while_any as while_any,
 )

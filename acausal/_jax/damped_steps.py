@@ -18,6 +18,8 @@ import optax
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, PyTree
 
+from acausal._jax.side_by_side import either
+
 
 class DescentMethod(optax.GradientTransformationExtraArgs):
     """An optimizer that compares losses of the same data, and goes back from a worse point by itself.
@@ -155,11 +157,8 @@ def after_trial(
     relaxed = state.damping * jnp.maximum(LEAST, 1 - (2 * ratio - 1) ** 3)
     growth = jnp.where(better, GROWTH, 2 * state.growth)
     stalled = better & ~first & (state.value - value <= ENOUGH * jnp.abs(value))
-    point, value, model = jax.tree.map(
-        lambda new, old: jnp.where(better, new, old),
-        (point, value, model),
-        (state.point, state.value, state.model),
-    )
+    before = state.point, state.value, state.model
+    point, value, model = either(better, (point, value, model), before)
     begun = jnp.where(better, state.damping * model.scale, state.damping)
     grown = jnp.where(state.damping > 0, state.growth * state.damping, DAMPING * model.scale)
     damping = jnp.where(first, begun, jnp.where(better, relaxed, grown))

@@ -8,6 +8,7 @@ still run and leaves the others alone, so that nothing needs to be chosen. They 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TypeVar
 
 import jax
@@ -73,6 +74,11 @@ def while_any(
     return lax.while_loop(lambda s: any_of(goes_on(s)), lambda s: body(s, own(goes_on(s))), start)
 
 
+def either(condition: Bool[Array, ...], one: State, other: State) -> State:
+    """`jnp.where` of the leaves of two pytrees of one form."""
+    return jax.tree.map(partial(jnp.where, condition), one, other)
+
+
 def cond_any(
     flag: Bool[Array, ""], then: Callable[[], State], otherwise: Callable[[], State]
 ) -> State:
@@ -80,6 +86,6 @@ def cond_any(
 
     def chosen() -> State:
         mine = own(flag)
-        return jax.tree.map(lambda a, b: jnp.where(mine, a, b), then(), otherwise())
+        return either(mine, then(), otherwise())
 
     return lax.cond(any_of(flag), chosen, otherwise)

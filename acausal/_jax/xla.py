@@ -57,17 +57,14 @@ def choose_options(
         jaxlib: its version; nothing is changed for a version that may not know the option.
         other_devices: whether JAX may compute on others than the CPU, where a loop is a sequence of programs.
     """
-    if SINCE <= _release(jaxlib) < BEFORE:
+    release = tuple(int(n) for n in re.findall(r"\d+", jaxlib)[:2])
+    if SINCE <= release < BEFORE:
         flags = environment.get("XLA_FLAGS", "")
         wanted = {OPTIONS: f"{BOUND}={NEAR}", EMITTERS: "false"}
         if not other_devices:
             wanted[WITHOUT] = LOOP_PASSES
         added = (f"--{name}={value}" for name, value in wanted.items() if name not in flags)
         environment["XLA_FLAGS"] = " ".join([flags, *added]).strip()
-
-
-def _release(version: str) -> tuple[int, ...]:
-    return tuple(int(n) for n in re.findall(r"\d+", version)[:2])
 
 
 @cache

@@ -17,7 +17,14 @@ from jaxtyping import Array, Float
 from scipy.optimize import least_squares
 
 from acausal._jax import is_number
-from acausal.errors import DeclarationError, TrainingError, listing, nearest, need_whole, shown
+from acausal.errors import (
+    DeclarationError,
+    TrainingError,
+    known_name,
+    listing,
+    need_whole,
+    shown,
+)
 from acausal.modeling import names_in
 from acausal.networks import check_inputs, law_of
 
@@ -207,8 +214,7 @@ def _checked(
     need_whole(terms, "distill: terms", TrainingError, 1)
     among = names_in(among, "among")
     for name in among:
-        if name not in TERMS:
-            raise TrainingError(f"distill: there is no term '{name}': {nearest(name, TERMS)}")
+        known_name(name, TERMS, "distill: there is no term", TrainingError)
     if not among:
         raise TrainingError(f"distill: no terms to choose from; there are {listing(TERMS)}.")
     return among

@@ -42,7 +42,7 @@ from acausal.analysis.tracking import (
 )
 from acausal.codegen import Packed, Values
 from acausal.data import Data, Record, noise_level
-from acausal.errors import DataError, nearest, need_compiled, need_whole, shown
+from acausal.errors import DataError, known_name, need_compiled, need_whole, shown
 from acausal.modeling import names_in
 from acausal.simulation import (
     Steps,
@@ -193,8 +193,7 @@ def filter_for(system: System, method: str, what: str) -> Filter | MovingHorizon
     need_double_precision()
     if not isinstance(method, str):
         raise DataError(f"method={shown(method)}; give the name of a method, such as 'ekf'.")
-    if method not in METHODS:
-        raise DataError(f"No method {shown(method)}: {nearest(method, METHODS)}")
+    known_name(method, METHODS, "No method")
     if method == "mhe":
         check_model(system, f"{what}, method='mhe',", events=False)
     check_model(system, what, events=what == "estimate")
@@ -225,9 +224,7 @@ def _sensors(system: System, data: Data, given: Any) -> dict[str, Any]:
     else:
         levels = dict.fromkeys(measured if given is None else names_in(given, "sensors"))
     for name in levels:
-        if name not in measured:
-            reason = nearest(name, measured)
-            raise DataError(f"sensors: '{name}' is not measured in the record: {reason}")
+        known_name(name, measured, "sensors:", then=" is not measured in the record:")
     if not levels:
         raise DataError(
             f"The record measures nothing that the model computes: it has {', '.join(data.signals)}. Name its "
@@ -251,8 +248,7 @@ def _bounds(
         return None
     low, high = np.full(len(names), -np.inf), np.full(len(names), np.inf)
     for name, interval in given.items():
-        if name not in names:
-            raise DataError(f"bounds: '{name}' is not estimated: {nearest(name, names)}")
+        known_name(name, names, "bounds:", then=" is not estimated:")
         pair = interval if isinstance(interval, Sequence) else ()
         ends = [e for e in pair if e is not None]
         if len(pair) != 2 or not all(map(is_number, ends)) or ends != sorted(ends):

@@ -13,7 +13,7 @@ import sympy as sp
 from jaxtyping import Array, Float
 
 from acausal.codegen import ArrayFormula, Packed, Values, compute, formula_of, run
-from acausal.errors import ModelError, nearest
+from acausal.errors import ModelError, known_name
 from acausal.flattening import EquationGroup, Integers
 from acausal.modeling import ModuleCall, time
 
@@ -48,9 +48,7 @@ def target(system: System, module: str) -> int:
     """
     targets = system.layout.module_of
     known = {system.flat.layout.module(i): i for i in range(len(targets))}
-    if module not in known:
-        raise ModelError(f"the model has no module '{module}': {nearest(module, known)}")
-    return int(targets[known[module]])
+    return int(targets[known[known_name(module, known, "the model has no module", ModelError)]])
 
 
 def calls(system: System, *modules: str) -> tuple[Calls, ...]:

@@ -25,7 +25,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import Damped, after_trial, as_key, before_trials, value_and_jacobian
+from acausal._jax import Damped, after_trial, as_key, before_trials, either, value_and_jacobian
 from acausal.analysis.filtering import (
     Belief,
     Filtered,
@@ -91,7 +91,14 @@ class MovingHorizon(NamedTuple):
             arrival, noise = carry
             first = jnp.maximum(row - count + 1, 0)
             here, before = row - first, jnp.maximum(row - first - 1, 0)
-            window = _window(measured, sigma, arrival, self.bounds, first, row, count)
+
+            def part(a: Array, size: int = count) -> Array:
+                return jax.lax.dynamic_slice_in_dim(a, first, size)
+
+            # rows after this one are not measured yet
+            known = part(measured.known) & (first + jnp.arange(count) <= row)[:, None]
+            own = Measured(part(measured.y), known, measured.sigma)
+            window = _Window(arrival, own, part(sigma, count - 1), self.bounds)
 
             expected = _Tangent.along(path, first, window, noise).filtered()
             found, converged = _most_likely(path, first, window, noise)
@@ -109,9 +116,7 @@ class MovingHorizon(NamedTuple):
                 [(found.z[1] - later.mean)[None], found.noise[2:], jnp.zeros((1, m))]
             )
             full = here == count - 1
-            return jax.tree.map(
-                lambda new, old: jnp.where(full, new, old), (later, moved), (arrival, found.noise)
-            ), estimate
+            return either(full, (later, moved), (arrival, found.noise)), estimate
 
         begin = Belief(start.mean, start.covariance), jnp.zeros((count, m))
         _, found = jax.lax.scan(at, begin, jnp.arange(len(measured.y)))
@@ -130,25 +135,6 @@ class _Window(NamedTuple):
     measured: Measured
     sigma: Float[Array, "W-1 m"]
     bounds: Bounds | None
-
-
-def _window(
-    measured: Measured,
-    sigma: Float[Array, "n-1 m"],
-    arrival: Belief,
-    bounds: Bounds | None,
-    first: Array,
-    last: Array,
-    count: int,
-) -> _Window:
-    """The rows from the first on; those after the last are not measured yet."""
-
-    def part(a: Array, size: int) -> Array:
-        return jax.lax.dynamic_slice_in_dim(a, first, size)
-
-    known = part(measured.known, count) & (first + jnp.arange(count) <= last)[:, None]
-    own = Measured(part(measured.y, count), known, measured.sigma)
-    return _Window(arrival, own, part(sigma, count - 1), bounds)
 
 
 class _Line(eqx.Module):

@@ -12,7 +12,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import check_time
 from acausal.codegen import Values
-from acausal.errors import DataError, nearest, need_compiled
+from acausal.errors import known_name, need_compiled
 from acausal.initialization import Initialization
 from acausal.modeling import ByName, names_in
 
@@ -68,8 +68,7 @@ class OperatingPoint(ByName):
 
     def _side_by_side(self, names: tuple[str, ...]) -> Float[Array, " n_names"]:
         for name in names:
-            if name not in self.names:
-                raise DataError(f"The model has no variable '{name}': {nearest(name, self.names)}")
+            known_name(name, self.names, "The model has no variable")
         return self.system.read(names, self.values)
 
     def __repr__(self) -> str:

@@ -14,7 +14,7 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import is_number, known, traced
 from acausal.analysis.filtering import Belief, Function
 from acausal.codegen import Packed, Values
-from acausal.errors import DataError, ModelError, nearest, shown
+from acausal.errors import DataError, ModelError, known_name, shown
 from acausal.events import fire
 from acausal.modeling import by_name
 from acausal.simulation import (
@@ -237,8 +237,7 @@ def numbers_by_name(
     first = known_names[0] if known_names else "name"
     found = by_name(given, argument, f"{argument}={{'{first}': ...}}")
     for name, value in found.items():
-        if name not in known_names:
-            raise DataError(f"{argument}: '{name}' is not {kind}: {nearest(name, known_names)}")
+        known_name(name, known_names, f"{argument}:", then=f" is not {kind}:")
         if not traced(value) and not (is_number(value) and value >= 0):
             raise DataError(
                 f"{argument}: '{name}' is {shown(value)}; give a finite number that is not negative."

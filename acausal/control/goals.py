@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from acausal._jax import is_number
-from acausal.errors import DataError, nearest, shown
+from acausal.errors import DataError, known_name, shown
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -88,10 +88,8 @@ class Goals:
             ("change", self.change, self.decided),
         ):
             for name in names:
-                if name not in known:
-                    raise DataError(
-                        f"control.mpc: {what}: '{name}' is no input that is decided; {nearest(name, known)}"
-                    )
+                of = f"control.mpc: {what}:"
+                known_name(name, known, of, then=" is no input that is decided;")
         for name, pair in self.limits.items():
             if name in system.inputs and name not in self.effort:
                 raise DataError(

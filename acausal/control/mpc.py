@@ -22,7 +22,15 @@ from acausal.control.goals import Goals, Limits, Weights
 from acausal.control.sizes import TypicalSizes, sizes
 from acausal.control.transcription import METHODS, NonlinearProgram, program
 from acausal.data import Data
-from acausal.errors import DataError, listing, nearest, need_compiled, need_whole, shown, user_level
+from acausal.errors import (
+    DataError,
+    known_name,
+    listing,
+    need_compiled,
+    need_whole,
+    shown,
+    user_level,
+)
 from acausal.export import casadi
 from acausal.modeling import by_name
 
@@ -107,10 +115,7 @@ def mpc(
     max_iterations = need_whole(max_iterations, "control.mpc: max_iterations", DataError, 1)
     if not is_number(dt) or not 0 < float(dt) < np.inf:
         raise DataError(f"control.mpc: dt={shown(dt)} is not a sample time; give seconds.")
-    if not (isinstance(method, str) and method in METHODS):
-        raise DataError(
-            f"control.mpc: there is no method {shown(method)}; {nearest(str(method), METHODS)}"
-        )
+    known_name(method, METHODS, "control.mpc: there is no method", then=";")
     goals = Goals(
         by_name(track, "control.mpc: track", "weights by name"),
         by_name(effort, "control.mpc: effort", "weights by name"),
@@ -320,10 +325,7 @@ class MPC:
     ) -> Float[np.ndarray, "n_names n"]:  # fmt: skip
         given = by_name(given, f"MPC.step: {argument}", "values by name")
         for name in given:
-            if name not in names:
-                raise DataError(
-                    f"MPC.step: {argument}: '{name}' is none of them; {nearest(name, names)}"
-                )
+            known_name(name, names, f"MPC.step: {argument}:", then=" is none of them;")
         if default is None and (lacking := [n for n in names if n not in given]):
             raise DataError(
                 f"MPC.step: {argument} lacks {listing(lacking)}, which nothing decides."

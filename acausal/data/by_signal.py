@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any, TypeAlias
 
-from acausal.errors import DataError, listing, nearest, shown
+from acausal.errors import DataError, known_name, listing, nearest, shown
 from acausal.modeling import by_name
 
 Choices: TypeAlias = str | Mapping[str, str] | None
@@ -25,10 +25,9 @@ def check_choices(
     by_name = {"The record": given} if isinstance(given, str) else given
     for name, choice in by_name.items():
         check_choice(name, what, choice, known)
-        if not isinstance(given, str) and name not in names:
-            raise DataError(
-                f"There is a choice of {what} for '{name}' but no such signal: {nearest(name, names)}"
-            )
+        if not isinstance(given, str):
+            said = f"There is a choice of {what} for"
+            known_name(name, names, said, then=" but no such signal:")
 
 
 def check_choice(name: str, what: str, choice: object, known: tuple[str, ...]) -> None:

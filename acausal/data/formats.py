@@ -13,7 +13,7 @@ from acausal.data import readers
 from acausal.data.by_signal import Choices
 from acausal.data.given_columns import Missing
 from acausal.data.readers import Selection, SignalTable
-from acausal.errors import DataError, nearest, shown
+from acausal.errors import DataError, known_name, shown
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -339,9 +339,8 @@ def _split(
 ) -> tuple[Selection, dict[str, Any]]:
     """What is read, and the options of the record itself."""
     known = ReadOptions.__annotations__
-    unknown = next((name for name in options if name not in known), None)
-    if unknown is not None:
-        raise DataError(f"{function} has no option '{unknown}': {nearest(unknown, known)}")
+    for name in options:
+        known_name(name, known, f"{function} has no option")
     of_selection = {n: options[n] for n in ("columns", "rename", "units") if n in options}
     others = {n: option for n, option in options.items() if n not in of_selection}
     return Selection(time, group=group, **of_selection), others
@@ -370,9 +369,7 @@ class Stream:
         return len(self.sources)
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self.sources:
-            raise DataError(f"There is no record '{name}': {nearest(name, self.sources)}")
-        return self.sources[name]()
+        return self.sources[known_name(name, self.sources, "There is no record")]()
 
     def without(self, names: tuple[str, ...]) -> Stream:
         """The other records."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike
 from acausal._jax import need_known
 from acausal.data.readers import SignalTable, is_data_frame, need_unique, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
-from acausal.errors import DataError, listing, nearest, shown
+from acausal.errors import DataError, known_name, listing, shown
 from acausal.modeling import by_name, names_in
 
 Missing = Literal["refuse", "nan"]
@@ -59,7 +58,7 @@ def columns_of(
         own = ts if given.times is None else given.times
         assert own is not None
         present = _present(name, given.samples, masks.get(name))
-        place = partial(_place, ts=own, unit=unit)
+        place = lambda i, ts=own: f"{sample(i)} ({ts[i]:g} {unit})"  # noqa: E731
         _check(name, present, own, place, "nan" if name in masks else missing)
         checked[name] = np.asarray(present, float)
     own_times = {name: given.times for name, given in measured.items() if given.times is not None}
@@ -98,9 +97,10 @@ def _by_name(signals: object) -> Mapping[str, Any]:
         need_unique(signals, "The data frame")
         return {n: signals[n].to_numpy() for n in names_in(signals.columns, "signals")}
     if not isinstance(signals, Mapping):
+        shape = getattr(signals, "shape", None)
         raise DataError(
             "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
-            f"not {_described(signals)}."
+            f"not {shown(signals) if shape is None else f'an array of shape {shape}'}."
         )
     return {name: signals[name] for name in names_in(signals, "signals")}
 
@@ -171,10 +171,7 @@ def _masks(given: object, measured: Mapping[str, GivenSignal]) -> Mapping[str, n
     """
     masks: dict[str, np.ndarray] = {}
     for name, own in by_name(given, "mask", "{'mass.s': samples_that_count}").items():
-        if name not in measured:
-            raise DataError(
-                f"There is a mask for '{name}' but no such signal: {nearest(name, measured)}"
-            )
+        known_name(name, measured, "There is a mask for", then=" but no such signal:")
         mask, shape = _array(own), np.shape(measured[name].samples)
         if getattr(mask, "dtype", None) != np.dtype(bool):
             raise DataError(
@@ -204,15 +201,6 @@ def _check(name: str, samples: Any, ts: np.ndarray, place: Place, missing: Missi
         place=place,
         remedy="if such samples are missing, say missing='nan'",
     )
-
-
-def _place(i: int, ts: np.ndarray, unit: str) -> str:
-    return f"{sample(i)} ({ts[i]:g} {unit})"
-
-
-def _described(thing: object) -> str:
-    shape = getattr(thing, "shape", None)
-    return shown(thing) if shape is None else f"an array of shape {shape}"
 
 
 Times: TypeAlias = Float[np.ndarray, " n"]

@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 LONG = 10
 """An interval without samples is a gap if it is longer than this many median sample times of its signal."""
 
+SIZE, MOST_PLOTS = (420, 96), 12
+"""Of a plot in a row of a view, in pixels; and signals with a plot: further ones are in the table only."""
+
 
 @dataclass(frozen=True, eq=False)
 class Data(ByName, Formats):
@@ -129,8 +132,7 @@ class Data(ByName, Formats):
             return cls.from_dataframe(record)
         if not isinstance(record, Mapping):
             raise DataError(f"A record is acausal.Data or a mapping, not {shown(record)}")
-        if "time" not in record:
-            raise DataError(f"The record has no 'time': {nearest('time', record)}")
+        known_name("time", record, "The record has no")
         return cls(record["time"], {n: v for n, v in record.items() if n != "time"})
 
     @classmethod
@@ -275,26 +277,43 @@ class Data(ByName, Formats):
         return len(self.time)
 
     def _repr_html_(self) -> str:
-        from acausal.data.record_view import record_view
+        from acausal.reporting import Curve, Html, View, small_plot
 
         spacing = f"every {self.sample_time:g} s" if self.uniform else "at uneven times"
         about = f"{len(self)} samples {spacing}, from {self.time[0]:g} to {self.time[-1]:g} s"
-        return record_view(about, self.time, self.signals, self.units or {}, self.counts)
+        view = View(f"Data: {len(self.signals)} signal{'s' * (len(self.signals) != 1)}", about)
+        counts, units = self.counts, self.units or {}
+        some_lack = any(count < len(self) for count in counts.values())
+
+        def plot(values: Float[np.ndarray, " n"]) -> str:
+            exist = ~np.isnan(values)
+            return small_plot([Curve("", self.time[exist], values[exist])], size=SIZE)
+
+        rows = [
+            (
+                name,
+                units.get(name, ""),
+                *([f"{counts[name]} of {len(self)}"] if some_lack else []),
+                np.nanmin(values),
+                np.nanmax(values),
+                Html(plot(values) if i < MOST_PLOTS else ""),
+            )
+            for i, (name, values) in enumerate(self.signals.items())
+        ]
+        count = ["samples"] if some_lack else []
+        view.table(("", "unit", *count, "least", "largest", "over time in s"), rows)
+        return str(view)
 
     def __repr__(self) -> str:
         spacing = f"{self.sample_time:g} s" if self.uniform else "an uneven time base"
         shares = {n: 1 - count / len(self) for n, count in self.counts.items()}
-        absent = [f"{_percent(share)} of '{n}'" for n, share in shares.items() if share]
+        absent = [f"{100 * share:.3g} % of '{n}'" for n, share in shares.items() if share]
         more = f"; missing: {', '.join(absent[:12])}" if absent else ""
         more += f" and of {len(absent) - 12} more" if len(absent) > 12 else ""
         return (
             f"Data({len(self)} samples at {spacing}, {self.time[0]:g} to {self.time[-1]:g} s: "
             f"{listing(self.signals)}{more})"
         )
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:.3g} %"
 
 
 def _warn_of_gaps(ts: Float[np.ndarray, " n"], name: str, interpolation: str) -> None:

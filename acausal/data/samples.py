@@ -80,7 +80,9 @@ def check_samples(
     if not is_real(values):
         raise DataError(f"{what} holds {_kind(values)}; real numbers are needed.")
     if np.shape(values) != shape:
-        raise DataError(f"{what} has {_count(values)} for {shape[0]} times.")
+        own = np.shape(values)
+        count = f"{own[0]} samples" if len(own) == 1 else f"values of shape {own}"
+        raise DataError(f"{what} has {count} for {shape[0]} times.")
     if traced(values):
         return
     samples = np.asarray(values)
@@ -121,8 +123,3 @@ def _kind(values: Any) -> str:
         return str(values.dtype if hasattr(values, "dtype") else np.asarray(values).dtype)
     except ValueError:
         return "rows of different lengths"
-
-
-def _count(values: ArrayLike) -> str:
-    shape = np.shape(values)
-    return f"{shape[0]} samples" if len(shape) == 1 else f"values of shape {shape}"

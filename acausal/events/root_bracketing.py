@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from acausal._jax import either
 from acausal.events.event_formulas import Events
 
 POINTS = (0.0, 0.25, 0.5, 0.75, 1.0)
@@ -142,7 +143,7 @@ def look(
     which = jnp.argmax(share[-1])
     is_near = later & (last >= -BAND * scale)
     band = jnp.where(is_near | (jnp.arange(len(last)) == which), BAND * scale, -1.0)
-    going = _either(bracketing.active, gone_on, begun)
+    going = either(bracketing.active, gone_on, begun)
     return Found(
         going._replace(active=going.active & ~is_event),
         is_event,
@@ -213,8 +214,3 @@ def _next(low: Array, high: Array, off_low: Array, off_high: Array, tries: Array
     usable = usable & (tries < HALVES)
     share = jnp.where(usable, jnp.clip(share, 1e-9, 1 - 1e-9), 0.5)
     return low + share * (high - low)
-
-
-def _either(condition: Array, first: Bracketing, second: Bracketing) -> Bracketing:
-    pairs = zip(first, second, strict=True)
-    return Bracketing(*(jnp.where(condition, a, b) for a, b in pairs))

@@ -8,7 +8,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from acausal.errors import DeclarationError, nearest, shown
+from acausal.errors import DeclarationError, known_name
 
 ACTIVATIONS: dict[str, Callable[[Array], Array]] = {
     "relu": jax.nn.relu,
@@ -38,8 +38,7 @@ def checked(name: str, allowed: tuple[str, ...] = tuple(ACTIVATIONS), use: str =
     Raises:
         DeclarationError: if it is not; ``use`` names the network in the message.
     """
-    if not isinstance(name, str) or name not in ACTIVATIONS:
-        raise DeclarationError(f"no activation {shown(name)}: {nearest(name, ACTIVATIONS)}")
+    known_name(name, ACTIVATIONS, "no activation", DeclarationError)
     if name not in allowed:
         raise DeclarationError(
             f"activation '{name}' does not suit {use}; choose one of {', '.join(allowed)}"

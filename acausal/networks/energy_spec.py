@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from acausal.errors import DeclarationError, need_whole
@@ -14,24 +13,6 @@ from acausal.networks.mlp import MLP, Key
 from acausal.networks.monotone_and_convex import Convex
 from acausal.networks.scaled import EnergyLaw
 from acausal.networks.spec import Layers, Net, NetworkSpec
-
-EnergyPart = Callable[[Net, int], Net]
-
-FREE: dict[tuple[bool, bool], EnergyPart] = {
-    (False, False): FromRest,
-    (False, True): lambda net, n: FromRest(Even(net, n), n),
-    (True, False): Bowl,
-    (True, True): lambda net, n: Bowl(Even(net, n), n),
-}
-"""Parts of energies of (passive, odd) laws that need not be convex."""
-
-CONVEX: dict[tuple[bool, bool], EnergyPart] = {
-    (False, False): FromRest,
-    (False, True): lambda net, n: FromRest(Even(net, n), n),
-    (True, False): Levelled,
-    (True, True): lambda net, n: FromRest(Even(net, n), n),
-}
-"""Parts of convex energies. A convex energy has its minimum where its derivative is zero; if it is even, at zero."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,13 +74,16 @@ class Energy(NetworkSpec):
         return EnergyLaw(net, inner, scale * outer, self.inputs, self.left_open)
 
     def _free(self, own: Layers) -> Net:
-        net = MLP(self.in_size, **own)
+        net: Net = MLP(self.in_size, **own)
         if self.vanishes and not (self.passive or self.odd):
             return Levelled(net, self.inputs)
-        return FREE[self.passive, self.odd](net, self.inputs)
+        net = Even(net, self.inputs) if self.odd else net
+        return (Bowl if self.passive else FromRest)(net, self.inputs)
 
     def _convex(self, own: Layers) -> Net:
         net: Net = Convex(self.inputs, self.secondary, **own)
         if self.floor or self.start:
             net = WithMinCurvature(net, self.floor, start_at(self.start), self.inputs)
-        return CONVEX[self.vanishes, self.odd](net, self.inputs)
+        if self.odd:  # its minimum is where its derivative is zero: at zero
+            return FromRest(Even(net, self.inputs), self.inputs)
+        return (Levelled if self.vanishes else FromRest)(net, self.inputs)

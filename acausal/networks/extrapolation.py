@@ -105,10 +105,6 @@ def _places(x: ArrayLike, low: float, high: float) -> tuple[Array, Array, Array]
     return given, jnp.clip(given, low, high), jnp.where(given < 0, low, high)
 
 
-def _held(law: ScalarFunction, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
-    return [law(near)]
-
-
 def _straight(law: ScalarFunction, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
     value, derivative = _tangent(law, near)
     return [value, jnp.maximum(derivative, 0) if rising else derivative]
@@ -124,7 +120,7 @@ def _cube(law: ScalarFunction, near: Array, limit: Array, rising: bool) -> Seque
 DERIVATIVES: dict[
     Extrapolation, Callable[[ScalarFunction, Array, Array, bool], Sequence[Array]]
 ] = {
-    "saturating": _held,
+    "saturating": lambda law, near, limit, rising: [law(near)],
     "linear": _straight,
     "cubic": _cube,
 }

@@ -61,6 +61,11 @@ class LawShape(NamedTuple):
     divides: bool
     positive: bool = False
 
+    @property
+    def has_constant(self) -> bool:
+        """Whether it has a constant that may be any number."""
+        return not self.through_zero and not self.energy and not self.positive
+
 
 def lacks_scales(network: object) -> bool:
     """Whether a network was made without scales, which a training can choose."""

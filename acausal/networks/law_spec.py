@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from acausal.errors import DeclarationError
@@ -21,33 +20,7 @@ from acausal.networks.law_parts import (
 from acausal.networks.mlp import MLP, Key
 from acausal.networks.monotone_and_convex import Monotone
 from acausal.networks.scaled import Scaled
-from acausal.networks.spec import Layers, Net, NetworkSpec, ZeroCrossing
-
-LawPart = Callable[[Net], Net]
-
-FREE: dict[tuple[bool, bool], LawPart] = {
-    (False, False): lambda net: net,
-    (False, True): Odd,
-    (True, False): Passive,
-    (True, True): lambda net: Passive(Even(net)),
-}
-"""Parts of (passive, odd) laws that need not be monotone."""
-
-MONOTONE: dict[tuple[bool, bool], LawPart] = {
-    (False, False): lambda net: net,
-    (False, True): Odd,
-    (True, False): lambda net: SameSign(OffsetCorrected(net)),
-    (True, True): lambda net: SameSign(Odd(net)),
-}
-"""Parts of (passive, odd) monotone laws: one that increases through zero is passive."""
-
-ZERO: dict[ZeroCrossing | None, LawPart] = {
-    None: lambda net: net,
-    "regularizer": lambda net: net,
-    "offset": OffsetCorrected,
-    "exact": ThroughZero,
-}
-"""Parts of laws that vanish at zero and promise nothing else."""
+from acausal.networks.spec import Layers, Net, NetworkSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,21 +74,28 @@ class Law(NetworkSpec):
                 output_scale=self.output_scale,
                 key=key,
             )
-        net = self._monotone(own) if self.monotone else self._free(own)
         passive = self.passive or (self.monotone and self.zero_crossing == "exact")
+        net = self._monotone(own, passive) if self.monotone else self._free(own)
         net = self.continued(net, Continued, rising=passive)
         return Scaled(net, *self.scales, left_open=self.left_open)
 
     def _free(self, own: Layers) -> Net:
         net = MLP(self.in_size, **own)
-        if self.passive or self.odd:
-            return FREE[self.passive, self.odd](net)
-        return ZERO[self.zero_crossing](net)
+        if self.passive:
+            return Passive(Even(net) if self.odd else net)
+        if self.odd:
+            return Odd(net)
+        part = {"offset": OffsetCorrected, "exact": ThroughZero}.get(self.zero_crossing or "")
+        return net if part is None else part(net)
 
-    def _monotone(self, own: Layers) -> Net:
+    def _monotone(self, own: Layers, passive: bool) -> Net:
         net: Net = Monotone(self.secondary, **own)
         if self.floor or self.start:
             net = WithMinSlope(net, self.floor, start_at(self.start))
         if self.zero_crossing == "offset":
             return OffsetCorrected(net)
-        return MONOTONE[self.passive or self.zero_crossing == "exact", self.odd](net)
+        if self.odd:
+            net = Odd(net)
+        elif passive:  # one that increases through zero is
+            net = OffsetCorrected(net)
+        return SameSign(net) if passive else net

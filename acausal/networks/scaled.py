@@ -96,17 +96,13 @@ def law_of(network: Callable[..., Array]) -> Callable[..., Array]:
     return network.law if isinstance(network, WithLaw) else network
 
 
+@compiled
 def law_at(
     network: Callable[..., Array],
     points: Float[Array | np.ndarray, " points"],
     rest: Float[Array | np.ndarray, " n"],
 ) -> Float[Array, " points"]:
     """The law of a network over its first input, the first of several; the other inputs are held at ``rest``."""
-    return _law_over(network, points, rest)
-
-
-@compiled
-def _law_over(network: Callable[..., Array], points: ArrayLike, rest: ArrayLike) -> Array:
     others = jnp.asarray(rest)
     found = jax.vmap(lambda x: law_of(network)(x, *others))(jnp.asarray(points))
     return found if found.ndim == 1 else found[:, 0]

@@ -97,8 +97,11 @@ class NetworkSpec:
             )
         _ = self.rho, self.range
         for name in ("passive", "odd"):
-            if getattr(self, name):
-                self._refuse_regularizer(name)
+            if getattr(self, name) and self.zero_crossing in ("regularizer", "offset"):
+                raise DeclarationError(
+                    f"{name}=True makes the law vanish at zero already; leave out "
+                    f"zero_crossing={shown(self.zero_crossing)}"
+                )
         for name in ("floor", "start"):
             if getattr(self, name):
                 self.check_bound(name)
@@ -182,11 +185,3 @@ class NetworkSpec:
         if self.extrapolation is None:
             return net
         return continuation(net, *self.range, self.extrapolation, **more)
-
-    def _refuse_regularizer(self, because: str) -> None:
-        """A law that vanishes by construction needs no regularizer or correction."""
-        if self.zero_crossing in ("regularizer", "offset"):
-            raise DeclarationError(
-                f"{because}=True makes the law vanish at zero already; leave out "
-                f"zero_crossing={shown(self.zero_crossing)}"
-            )

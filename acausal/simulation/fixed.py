@@ -75,7 +75,9 @@ def simulate_fixed(
     x = x if saved is None else select(x, rows)
     if is_explicit and (rough or traced(x)):
         limit = tableau_of(scheme).stability_limit() if rough else FAR
-        _check_steps(run.system, start._replace(t=t, x=x, u=u), float(h), limit)
+        values = known(start._replace(t=t, x=x, u=u))
+        if values is not None and (sentence := long_steps(run.system, values, float(h), limit)):
+            warnings.warn(sentence, stacklevel=user_level())
     t, x, u = cast((t, x, u), dtype)
     return Solution(start._replace(t=t, x=x, u=u), run.system)
 
@@ -143,13 +145,6 @@ def _check(
         f"The simulation broke down after t = {ends[last]:g} s: {what}."
         + (reason or " " + _advice(run.modes(), dt))
     )
-
-
-def _check_steps(system: System, trajectory: Values, h: float, limit: float) -> None:
-    """Warn where states are rough, or derivatives are taken, in steps outside the solver's region of stability."""
-    values = known(trajectory)
-    if values is not None and (sentence := long_steps(system, values, h, limit)):
-        warnings.warn(sentence, stacklevel=user_level())
 
 
 def _advice(modes: NDArray[np.complex128], dt: float) -> str:

@@ -17,7 +17,6 @@ from jaxtyping import Array, Float, PyTree
 from acausal._jax import Restarts, stored_scan
 from acausal.codegen import StateJacobian, Values
 from acausal.data import Signal, deviation_from_line
-from acausal.simulation.inputs import TimeFunction
 from acausal.simulation.log import Log
 from acausal.simulation.newton import FIXED, Fields, Rates, fixed_tolerances
 from acausal.simulation.sampled_inputs import Samples
@@ -65,7 +64,7 @@ class Parts(eqx.Module):
 
 
 class Steps(eqx.Module):
-    """A sequence of n steps.
+    """A sequence of n steps, or one of them, whose arrays have no axis of steps.
 
     Attributes:
         t: their starts, shape (n,), in seconds.
@@ -78,42 +77,29 @@ class Steps(eqx.Module):
     inputs: Samples
     parts: Parts | None = None
 
-
-class Step(eqx.Module):
-    """One of `Steps`: its start and length, the inputs at both ends, and how they deviate from a line in between."""
-
-    t: Float[Array, ""]
-    h: Float[Array, ""]
-    start: Float[Array, " n_inputs"]
-    end: Float[Array, " n_inputs"]
-    coefficients: Float[Array, "n_coefficients n_inputs"] | None
-    parts: Parts | None = None
-
     def time(self, fraction: ArrayLike) -> Float[Array, ""]:
-        """The time at a fraction of the step."""
+        """Of one step: the time at a fraction of it."""
         return self.t if _is_zero(fraction) else self.t + fraction * self.h
 
-    def inputs(
-        self,
-        fraction: ArrayLike,
-        functions: tuple[TimeFunction | None, ...],
-        t: Array | None = None,
-        around: ArrayLike | None = None,
+    def inputs_at(
+        self, fraction: ArrayLike, t: Array | None = None, around: ArrayLike | None = None
     ) -> Float[Array, " n_inputs"]:
-        """The inputs at a fraction of the step; functions of time as they are at ``t``, if that is given.
+        """Of one step: the inputs at a fraction of it; functions of time as they are at ``t``, if that is given.
 
         Where they jump within the step, they are those of the part around a fraction.
         """
+        known = self.inputs
         if _is_zero(fraction):
-            u = self.start
+            u = known.start
         elif self.parts is not None:
             u = self.parts.at(fraction, fraction if around is None else around)
         else:
-            u = on_curve(self.start, self.end, self.coefficients, fraction)
-        if all(f is None for f in functions):
+            u = on_curve(known.start, known.end, known.coefficients, fraction)
+        if all(f is None for f in known.functions):
             return u
         t = self.time(fraction) if t is None else t
-        return jnp.stack([v if f is None else f(t) for v, f in zip(u, functions, strict=True)])
+        pairs = zip(u, known.functions, strict=True)
+        return jnp.stack([v if f is None else f(t) for v, f in pairs])
 
 
 def on_curve(start: Array, end: Array, coefficients: Array | None, fraction: ArrayLike) -> Array:
@@ -133,14 +119,12 @@ class Within(NamedTuple):
 
     Attributes:
         values: the values that are constant over the step; time, states and inputs are replaced.
-        functions: the inputs that are functions of time.
         step: the step.
         sided: whether something may jump at its ends, so that time stays a little within.
     """
 
     values: Values
-    functions: tuple[TimeFunction | None, ...]
-    step: Step
+    step: Steps
     sided: bool = False
 
     def at(
@@ -158,7 +142,7 @@ class Within(NamedTuple):
             beyond = jnp.asarray(fraction) > jnp.asarray(part[1])
             t = jnp.where(beyond, t, jnp.clip(t, low + apart, high - apart))
         around = (part[0] + part[1]) / 2
-        return self.values._replace(t=t, x=x, u=step.inputs(fraction, self.functions, t, around))
+        return self.values._replace(t=t, x=x, u=step.inputs_at(fraction, t, around))
 
 
 class Runs(eqx.Module):
@@ -290,7 +274,8 @@ def integrate(
         length = equal if h is None else h
         if own is not None:
             values = values._replace(packed=values.packed.replaced(places, own))
-        within = Within(values, functions, Step(t, length, start, end, coefficients, parts), sided)
+        inputs = Samples(start, end, functions, coefficients)
+        within = Within(values, Steps(t, length, inputs, parts), sided)
         first_stage, y = observe(x, within)
         return whole(x, within, first_stage), y
 
@@ -317,7 +302,7 @@ def _cuts(
     """
     step = within.step
     found = [] if step.parts is None else [*step.parts.cuts]
-    signals = [f for f in within.functions if isinstance(f, Signal)]
+    signals = [f for f in step.inputs.functions if isinstance(f, Signal)]
     signals = [f for f in signals if f.jumps or f.interpolation == "linear"]
     moved = None
     if divided and (system.edges or signals):

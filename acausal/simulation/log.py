@@ -62,17 +62,14 @@ class Event(NamedTuple):
 
     def __str__(self) -> str:
         """In words."""
+        condition = CLOCK.sub(lambda one: f"time reaches {one[1] or one[2]}", self.condition)
         digits = 9 if abs(self.t) < 1e6 else 14  # seconds of a calendar
-        words = f"t = {self.t:.{digits}g} s: {self.effect or CLOCK.sub(_reached, self.condition)}"
+        words = f"t = {self.t:.{digits}g} s: {self.effect or condition}"
         if not self.grazes:
             return words
         return (
             f"{words} (it hardly changes there: a gradient through it does not exist, or is huge)"
         )
-
-
-def _reached(condition: re.Match[str]) -> str:
-    return f"time reaches {condition[1] or condition[2]}"
 
 
 class EventList(tuple[Event, ...]):

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.codegen import Packed, evaluate, read_parameters
-from acausal.errors import DataError, nearest
+from acausal.errors import DataError, known_name
 from acausal.modeling import Parameter, Reference, Shape
 
 if TYPE_CHECKING:
@@ -62,8 +62,8 @@ def animation(
             "its class, or build the mechanism from the package planar."
         )
     ways = list(dict.fromkeys(path for _, path, shape in found if shape.traced))
-    if trace is not None and trace not in ways:
-        raise DataError(f"animation: '{trace}' has no way to trace: {nearest(trace, ways)}")
+    if trace is not None:
+        known_name(trace, ways, "animation:", then=" has no way to trace:")
     variables, parameters = _read_by(system, [(i, shape) for i, _, shape in found])
     columns = read(list(dict.fromkeys(variables.values())))
     numbers = np.array(list(parameters.values()), int)

@@ -74,24 +74,14 @@ def _together(
     if not columns:
         empty = array(np.zeros((len(ends) - 1, 0)))
         return Samples(empty, empty)
-    at_starts, at_ends, coefficients = zip(*columns, strict=True)
-    stack = numpy_or_jax(columns).stack
-    return Samples(
-        array(stack(at_starts, axis=1)),
-        array(stack(at_ends, axis=1)),
-        functions,
-        _side_by_side(coefficients),
-    )
-
-
-def _side_by_side(
-    columns: tuple[Float[Array, "n_coefficients n"] | None, ...],
-) -> Float[Array, "n n_coefficients n_inputs"] | None:
-    some = [c for c in columns if c is not None]
-    if not some:
-        return None
-    straight = jnp.zeros_like(some[0])
-    return jnp.stack([straight if c is None else c for c in columns], axis=-1).swapaxes(0, 1)
+    at_starts, at_ends, curves = zip(*columns, strict=True)
+    stack, coefficients = numpy_or_jax(columns).stack, None
+    if some := [c for c in curves if c is not None]:
+        straight = jnp.zeros_like(some[0])
+        every = [straight if c is None else c for c in curves]
+        coefficients = jnp.stack(every, axis=-1).swapaxes(0, 1)
+    start, end = (array(stack(side, axis=1)) for side in (at_starts, at_ends))
+    return Samples(start, end, functions, coefficients)
 
 
 def _on_grid(function: TimeFunction, ends: Ends) -> _Sampled | None:

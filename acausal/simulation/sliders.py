@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from acausal._jax import is_number
-from acausal.errors import AcausalError, DataError, nearest, need_compiled, need_package, shown
+from acausal.errors import (
+    AcausalError,
+    DataError,
+    known_name,
+    need_compiled,
+    need_package,
+    shown,
+)
 from acausal.modeling import by_name, names_in
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
@@ -80,7 +87,9 @@ def sliders(
             `acausal.simulate` refuses.
     """
     need_compiled(system, "sliders")
-    if isinstance(t, str | Mapping) or (isinstance(t, Sequence) and any(map(_is_text, t))):
+    if isinstance(t, str | Mapping) or (
+        isinstance(t, Sequence) and any(isinstance(v, str) for v in t)
+    ):
         raise DataError(
             f"sliders: t={shown(t)} is not a time; give it first, ac.sliders(system, 10.0, {shown(t)})."
         )
@@ -164,10 +173,7 @@ def ranges_of(
     if not isinstance(ranges, Mapping):
         ranges = {name: _around(system, name, given) for name in names_in(ranges, "ranges")}
     for name, bounds in ranges.items():
-        if name not in known:
-            raise DataError(
-                f"ranges: '{name}' is neither a parameter nor an input; {nearest(name, known)}"
-            )
+        known_name(name, known, "ranges:", then=" is neither a parameter nor an input;")
         if (
             not isinstance(bounds, Sequence)
             or len(bounds) != 2
@@ -181,10 +187,6 @@ def ranges_of(
         value = float(given[name]) if name in given else 0.5 * (low + high)
         found.append(Range(name, low, high, min(max(value, low), high), system.unit(name)))
     return tuple(found)
-
-
-def _is_text(value: object) -> bool:
-    return isinstance(value, str)
 
 
 def _around(system: System, name: str, params: Mapping[str, Any]) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import array, compiled, select, traced
 from acausal.codegen import Packed, Values, read_and_keep
-from acausal.errors import DataError, nearest, need_package
+from acausal.errors import DataError, known_name, need_package
 from acausal.files import csv_text, need_path, write_files
 from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.finite import warn_of_nonfinite
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 MOST_KEPT = 1_000_000
 """So many numbers of a program's arrays, at most, are kept beside a variable that is asked for."""
 
-CURVES_VIEWED = 12
-"""Variables in the view that a notebook shows."""
+CURVES_VIEWED, PLOTS_VIEWED, CURVES_EACH = 12, 4, 6
+"""Variables in the view that a notebook shows; its small plots, one for each unit, and curves in each."""
 
 
 @partial(
@@ -281,8 +281,7 @@ class Solution(ByName):
             self._observed.update(found)
         new = tuple(n for n in new if n not in self._observed)
         for name in new:
-            if name not in self.system.variables:
-                raise DataError(f"The model has no variable '{name}': {nearest(name, self.names)}")
+            known_name(name, self.system.variables, "The model has no variable")
         if new:
             self._compute(new)
         warn_of_nonfinite(self.system, self.values, {n: self._observed[n] for n in unread})
@@ -316,11 +315,11 @@ class Solution(ByName):
         return []
 
     def _repr_html_(self) -> str:
-        from acausal.simulation.solution_view import solution_view
+        from acausal.reporting import Curve, View, small_plot, still
 
         title = f"{type(self).__name__} of {self.system.flat.name}"
         if traced(self.t) or self.t.ndim != 1 or not len(self.t):
-            return solution_view(title, [f"shape {self.t.shape}"], np.zeros(0), {}, {})
+            return str(View(title, f"shape {self.t.shape}"))
         states, *others = self.groups.values()
         names = (*states, *self.system.discrete, *(n for some in others for n in some))
         names = names[:CURVES_VIEWED]
@@ -330,12 +329,26 @@ class Solution(ByName):
         about += self._about
         about += [f"{len(self.events)} events"] if self.log is not None else []
         about += [str(self.statistics)] if self.statistics is not None else []
+        view, sigma = View(title, ", ".join(about)), self.deviations(names)
+        if has_shapes(self.system):
+            view.html(still(self.animation()))
         units = {n: self.system.unit(n) for n in curves}
-        steps = [n for n in curves if self.system.is_discrete(n)]
-        moving = self.animation() if has_shapes(self.system) else None
-        return solution_view(
-            title, about, time, curves, units, steps, moving, self.deviations(names)
-        )
+        groups: dict[str, list[Curve]] = {}
+        for n, y in curves.items():
+            steps = self.system.is_discrete(n)
+            curve = Curve(n, time, y, sigma=sigma.get(n), steps=steps)
+            groups.setdefault(units[n], []).append(curve)
+        for unit, lines in list(groups.items())[:PLOTS_VIEWED]:
+            plot = small_plot(lines[:CURVES_EACH], across="time in s", upwards=unit or "1")
+            view.html(plot)
+        rows = [
+            (name, y[0], y[-1], np.nanmin(y), np.nanmax(y), units[name])
+            for name, y in curves.items()
+            if len(y) and not np.isnan(y).all()
+        ]
+        if rows:
+            view.table(("", "at the start", "at the end", "least", "largest", "unit"), rows)
+        return str(view)
 
     def __repr__(self) -> str:
         shape = f"{self.t.shape[0]} points"

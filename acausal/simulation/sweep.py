@@ -96,7 +96,8 @@ class Sweep(ByName):
         """
         values = by_name(values, "sel", "{'spring.c': ...}")
         for name, value in values.items():
-            self._known(name)
+            if name not in self.over:
+                raise DataError(f"'{name}' was not varied; {nearest(name, self.over)}")
             if not is_real(value) or np.ndim(value):
                 raise DataError(f"sel: '{name}' is {shown(value)}; give a number.")
         if not self.grid:
@@ -160,10 +161,6 @@ class Sweep(ByName):
         levels = np.repeat(values, len(lines) // len(values))
         labels = (_label(name, self.unit(name)), _label(first, self.unit(first)))
         return plot_variants(np.asarray(self.t), lines, levels, labels, ax=ax)
-
-    def _known(self, name: str) -> None:
-        if name not in self.over:
-            raise DataError(f"'{name}' was not varied; {nearest(name, self.over)}")
 
     def _column(self, name: str) -> Float[Array, ...]:
         return self._read((name,))[name]

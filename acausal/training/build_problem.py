@@ -14,7 +14,7 @@ from jaxtyping import Array, Float
 from acausal._jax import precision
 from acausal.codegen import Values
 from acausal.data import Data, check_resolution
-from acausal.errors import DataError, TrainingError, listing, nearest, shown
+from acausal.errors import DataError, TrainingError, known_name, listing, shown
 from acausal.modeling import names_in
 from acausal.networks import networks
 from acausal.simulation import (
@@ -126,7 +126,7 @@ def build_problem(
     how = options.sequence_length, options.batch_size, options.subsample
     lacking = [n for n in own_states if any(n not in d.signals for d in data.values())]
     if streamed is None:
-        sequences = cut(records, np.ones(records.count), *how, tiled=shooting, lacking=lacking)
+        sequences = cut(records, *how, tiled=shooting, lacking=lacking)
     else:
         records = replace(records, sigma=jnp.asarray(streamed.sigma))
         sequences = streamed.cut(*how, lacking)
@@ -195,8 +195,7 @@ def trained_networks(
         return tuple(found)
     chosen = names_in(train, "train")
     for name in chosen:
-        if name not in found:
-            raise TrainingError(f"There is no network '{name}' to train: {nearest(name, found)}")
+        known_name(name, found, "There is no network", TrainingError, " to train:")
     return chosen
 
 

@@ -169,7 +169,9 @@ class _Keeper:
         """Take a snapshot, and write it if it is time."""
         self.latest = (snapshot, logs)
         if self.written is None:
-            self._write_first()
+            if error := self._try():
+                self.latest = None
+                raise _nothing_trained(self.path, error) from error
         elif time.monotonic() - self.tried >= self.every:
             error = self._try()
             if error and not self.warned:
@@ -190,12 +192,6 @@ class _Keeper:
                 "ac.save_params(fit.params, ...).",
                 stacklevel=user_level(),
             )
-
-    def _write_first(self) -> None:
-        error = self._try()
-        if error:
-            self.latest = None
-            raise _nothing_trained(self.path, error) from error
 
     def _try(self) -> OSError | None:
         assert self.latest is not None

@@ -31,8 +31,10 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Segment, Stage
 
-DERIVED = ("context", "shooting", "weighting", "mesh", "first_states", "start_prior", "streamed")
-"""Fields of a problem that follow from the others, or only choose the devices."""
+DERIVED = (
+    "context", "shooting", "weighting", "mesh", "first_states", "start_prior", "streamed", "direct"
+)  # fmt: skip
+"""Fields of a problem that follow from the others, or only choose the devices or the mode of derivatives."""
 
 ARGUMENTS = {
     "networks": "train", "records": "data", "substeps": "dt", "timing": "delays or lags",
@@ -61,14 +63,17 @@ def fingerprint(
     """
     fields = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     named = {ARGUMENTS.get(n, n): field for n, field in fields.items() if n not in DERIVED}
+    system, targets, records = problem.system, problem.targets, problem.records
+    t, x, u = jnp.zeros(()), jnp.zeros(len(system.states)), jnp.zeros(len(system.inputs))
+    point = t, x, u, problem.params
     planned = {
-        "system": (problem.system, _rates(problem)),
-        "targets": (problem.targets, _outputs(problem)),
+        "system": (system, program(system.vector_field, *point)),
+        "targets": (targets, program(functools.partial(system.observe, targets), *point)),
         "loss": ([segment.trainer.limit for segment in segments], _loss(problem)),
         "regularizers": {n: _regularizer(problem, r) for n, r in problem.regularizers.items()},
-        "record_weights or sample_weights": (problem.weighting, problem.records.weight),
+        "record_weights or sample_weights": (problem.weighting, records.weight),
         "data": (
-            problem.records.unweighted(),
+            dataclasses.replace(records, weight=jnp.where(records.weight > 0, 1.0, 0.0)),
             {n: dict(d.signals) for n, d in data.items()},
             problem.streamed,
         ),
@@ -104,20 +109,6 @@ def program(function: Callable[..., Any], *arguments: Any) -> str:
 
     # of one platform, wherever this runs: a checkpoint may move to a machine with another accelerator
     return jax.jit(of_arrays).trace(arrays).lower(lowering_platforms=("cpu",)).as_text()
-
-
-def _point(problem: Problem) -> tuple[Any, ...]:
-    system = problem.system
-    t, x, u = jnp.zeros(()), jnp.zeros(len(system.states)), jnp.zeros(len(system.inputs))
-    return t, x, u, problem.params
-
-
-def _rates(problem: Problem) -> str:
-    return program(problem.system.vector_field, *_point(problem))
-
-
-def _outputs(problem: Problem) -> str:
-    return program(functools.partial(problem.system.observe, problem.targets), *_point(problem))
 
 
 def _loss(problem: Problem) -> str:

@@ -18,7 +18,7 @@ import optax
 from jax.typing import DTypeLike
 
 from acausal._jax import is_number, traced
-from acausal.errors import TrainingError, nearest, need_flag, need_whole, shown
+from acausal.errors import TrainingError, known_name, nearest, need_flag, need_whole, shown
 from acausal.files import need_path
 from acausal.jobs import Workers, need_workers
 from acausal.simulation import Solver
@@ -350,8 +350,7 @@ class FitOptions:
         if "auto" in self.parts and len(self.parts) > 1:
             raise TrainingError("strategy='auto' chooses all parts itself; give it alone.")
         for name in self.parts:
-            if name not in UPDATES:
-                raise TrainingError(f"No strategy '{name}': {nearest(name, UPDATES)}")
+            known_name(name, UPDATES, "No strategy", TrainingError)
         if self.optimizer is not None and all(name in OWN_OPTIMIZER for name in self.parts):
             named = ", then ".join(self.parts)
             raise TrainingError(
@@ -359,9 +358,6 @@ class FitOptions:
             )
         if self.starts > 1 and self.devices is not None:
             raise TrainingError("Several starts are trained on one device: leave out devices=.")
-        self._check_updates()
-
-    def _check_updates(self) -> None:
         if not self.parts or len(self.updates) != len(self.parts):
             raise TrainingError(
                 f"epochs={self.epochs} for the strategy {self.parts}: give one number, or one for each part."

@@ -14,7 +14,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import compiled, is_number, levenberg_marquardt, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, listing, nearest, shown
+from acausal.errors import DataError, known_name, listing, shown
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import by_name
 from acausal.training.conformal import Conformal
@@ -110,16 +110,15 @@ def _own_given(
     if not any(isinstance(v, Mapping) for v in given.values()):
         return dict.fromkeys(records, given)
     for record in given:
-        if record not in records:
-            raise DataError(f"params: there is no record '{record}': {nearest(record, records)}")
+        known_name(record, records, "params: there is no record")
     return dict(given)
 
 
 def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> dict[str, Prediction]:
     """Predictions of some records in one program; they do not know of each other."""
-    (fit, conformal), (records, x0, params) = shared, some
+    fit, conformal = shared
     system, targets = fit.system, fit.problem.targets
-    own = _own(fit, records, x0, params)
+    own = _own(fit, some)
     problem, confidence = own.problem, fit.confidence()
     least = np.array([confidence.noise[n] * np.sqrt(confidence.alike[n]) for n in targets])
     certainty = np.sqrt(np.asarray(problem.records.weight)) / np.maximum(least, 1e-300)
@@ -147,18 +146,19 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
             units=units,
         )
 
-    named = zip(records, made.values(), strict=True)
+    named = zip(some.records, made.values(), strict=True)
     return {n: one(k, replace(r, name=n)) for k, (n, r) in enumerate(named)}
 
 
-def _own(
-    fit: TrainedModel,
-    records: Mapping[str, Data],
-    x0: InitialState,
-    params: Mapping[str, Mapping[str, float]],
-) -> Own:
+def _own(fit: TrainedModel, some: _Some) -> Own:
     """What the records have for themselves, before their targets have told of it."""
-    problem = _nameless(over(_records_alike(fit.problem), records, x0, measured=False))
+    records, x0, params = some
+    # no record counts for more because of others, which are not predicted along with it
+    alike = replace(fit.problem, weighting=replace(fit.problem.weighting, records="samples"))
+    problem = over(alike, records, x0, measured=False)
+    # numbers for names, which compiled programs know: they serve other records of that length
+    numbers = tuple(map(str, range(problem.records.count)))
+    problem = replace(problem, records=replace(problem.records, names=numbers))
     trainable = problem.over_other_records(fit.trained)
     laid, names = problem.records, problem.per_record.names
     measured = np.isfinite(laid.measured)
@@ -180,17 +180,6 @@ def _own(
     information[:, : len(names)][given] = np.inf
     values = np.concatenate([own, moves], 1)
     return Own(problem, trainable, *map(jnp.asarray, (values, free, information)))
-
-
-def _records_alike(problem: Problem) -> Problem:
-    """The problem in which no record counts for more because of others, which are not predicted along with it."""
-    return replace(problem, weighting=replace(problem.weighting, records="samples"))
-
-
-def _nameless(problem: Problem) -> Problem:
-    """The problem with numbers for names, which compiled programs know: they serve other records of that length."""
-    numbers = tuple(map(str, range(problem.records.count)))
-    return replace(problem, records=replace(problem.records, names=numbers))
 
 
 def _given(

@@ -134,7 +134,17 @@ class Predictions(Mapping[str, Prediction]):
         return PlainTable(self._rows()).as_data_frame()
 
     def _rows(self) -> dict[str, dict[str, float | str]]:
-        return {row: cells for p in self.records.values() for row, cells in _errors(p).items()}
+        return {
+            f"{found.name}: {name}": {
+                "samples": int(np.isfinite(found.measured[:, i]).sum()),
+                "RMS error": found.rms[name],
+                "unit": unit,
+                "normalized": found.normalized[name],
+                "within band": found.inside[name],
+            }
+            for found in self.records.values()
+            for i, (name, unit) in enumerate(found.units.items())
+        }
 
     def report(self, path: str | Path, title: str = "Prediction") -> Path:
         """Write a page about the predictions, one HTML file; arguments and errors as those of `Fit.report`."""
@@ -170,17 +180,3 @@ class Predictions(Mapping[str, Prediction]):
 
     def __repr__(self) -> str:
         return "\n".join(map(repr, self.records.values()))
-
-
-def _errors(found: Prediction) -> dict[str, dict[str, float | str]]:
-    """The errors of a record's targets by title, as rows of a table."""
-    return {
-        f"{found.name}: {name}": {
-            "samples": int(np.isfinite(found.measured[:, i]).sum()),
-            "RMS error": found.rms[name],
-            "unit": unit,
-            "normalized": found.normalized[name],
-            "within band": found.inside[name],
-        }
-        for i, (name, unit) in enumerate(found.units.items())
-    }

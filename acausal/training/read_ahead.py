@@ -104,6 +104,7 @@ def _read(
     nth, mine = chosen - np.append(0, ends)[record], np.flatnonzero(_own_columns(problem))
     start = np.zeros_like(chosen)
     found: Any = None
+    shape = len(chosen), len(mine)
     for k in np.unique(record).tolist():
         if stop.is_set():
             break
@@ -115,7 +116,7 @@ def _read(
             continue
         part = streamed.windows(problem, k, first[own], length)
         if found is None:
-            found = jax.tree.map(partial(_empty, (len(chosen), len(mine))), part)
+            found = jax.tree.map(lambda a: np.zeros((*shape, *a.shape[1:]), a.dtype), part)
         columns = np.searchsorted(mine, at[1][own])
         jax.tree.map(partial(_fill, (at[0][own], columns)), found, part)
     if mesh is None:
@@ -123,10 +124,6 @@ def _read(
     shares = NamedSharding(mesh, PartitionSpec(None, SEQUENCES))
     found = jax.tree.map(partial(jax.make_array_from_process_local_data, shares), found)
     return ReadSequences(*replicate((jnp.asarray(since), jnp.asarray(start)), mesh), found)
-
-
-def _empty(shape: tuple[int, int], like: np.ndarray) -> np.ndarray:
-    return np.zeros((*shape, *like.shape[1:]), like.dtype)
 
 
 def _fill(at: tuple[np.ndarray, np.ndarray], whole: np.ndarray, part: np.ndarray) -> None:

@@ -23,7 +23,6 @@ from acausal.training.conformal import Conformal, conformal
 from acausal.training.member import Trained
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.trainable import Trainable
 from acausal.training.predict import OwnParameters, predict
 from acausal.training.prediction import Predictions
 from acausal.training.presentation.export_with_card import export_with_card
@@ -31,8 +30,6 @@ from acausal.training.presentation.fit_page import fit_content
 from acausal.training.presentation.fit_view import fit_text, fit_view
 from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records
-from acausal.training.starts import Starts
-from acausal.training.strategy import StageResult
 from acausal.training.trained_model import Seen, TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
 
@@ -261,27 +258,19 @@ class Fit(TrainedModel):
         return fit_text(self, self.stages_summary(), self.verdict)
 
 
-def _of_held_out(problem: Problem, trainable: Trainable) -> dict[str, RecordFit]:
-    problem = replace(problem, mesh=None)
-    known = problem.over_other_records(trainable)
-    return of_records(problem, known, problem.simulate(known))
-
-
 def result(
     problem: Problem,
     trained: Trained,
     prepare_seconds: float,
-    held: Problem | None = None,
-    starts: Starts | None = None,
-    settings: Mapping[str, str] | None = None,
-    stages: tuple[StageResult, ...] = (),
-    step_error: float | None = None,
-    not_laws: tuple[str, ...] = (),
-    without_constant: tuple[str, ...] = (),
-    pieces: int = 0,
+    held: Problem | None,
+    **others: Any,
 ) -> Fit:
-    """The result of a training; arguments as the attributes of `Fit`."""
-    best, history = trained.best, trained.history
+    """The result of a training; the other arguments are attributes of `Fit`."""
+    best, history, held_out = trained.best, trained.history, dict[str, RecordFit]()
+    if held is not None:
+        held = replace(held, mesh=None)
+        known = held.over_other_records(best.trainable)
+        held_out = of_records(held, known, held.simulate(known))
     records = of_records(problem, best.trainable, best.simulated)
     arguments = {
         n: np.concatenate([record.arguments[n] for record in records.values()])
@@ -295,7 +284,7 @@ def result(
         validation_loss=best.validation,
         best_epoch=best.epoch,
         records=records,
-        held_out={} if held is None else _of_held_out(held, best.trainable),
+        held_out=held_out,
         modifiers={n: float(value) for n, value in problem.changes(best.trainable).items()},
         arguments=arguments,
         seen={n: Seen(a.mean(axis=0), a.std(axis=0)) for n, a in arguments.items()},
@@ -307,11 +296,5 @@ def result(
         interrupted=trained.interrupted,
         problem=problem,
         trained=best.trainable,
-        starts=starts,
-        settings=dict(settings or {}),
-        stages=stages,
-        step_error=step_error,
-        not_laws=not_laws,
-        without_constant=without_constant,
-        pieces=pieces,
+        **others,
     )

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from acausal.data import Data, Stream
-from acausal.errors import DataError, TrainingError, listing, nearest
+from acausal.errors import DataError, TrainingError, known_name, listing
 from acausal.training.objective.held_out import named_records
 from acausal.training.objective.streamed import Streamed, survey
 from acausal.training.options import FitOptions
@@ -49,10 +49,7 @@ def look_at(
         )
     names = named_records(options.validation)
     for name in names:
-        if name not in stream.sources:
-            raise DataError(
-                f"validation: there is no record '{name}': {nearest(name, stream.sources)}"
-            )
+        known_name(name, stream.sources, "validation: there is no record")
     if len(set(names)) == len(stream):
         raise DataError(f"validation={listing(names)} leaves no record to train on.")
     if names:

@@ -105,13 +105,13 @@ def run(
             one,
             training.seconds,
             judged or training.held,
-            spread,
-            {"seed": str(seed), **described},
-            stage_results(one.history, plan, first),
-            error,
-            () if from_data is None else from_data.not_laws,
-            loose,
-            0 if from_data is None else from_data.pieces,
+            starts=spread,
+            settings={"seed": str(seed), **described},
+            stages=stage_results(one.history, plan, first),
+            step_error=error,
+            without_constant=loose,
+            not_laws=() if from_data is None else from_data.not_laws,
+            pieces=0 if from_data is None else from_data.pieces,
         )
         for own, one, seed, error in zip(problems, trained, seeds, errors, strict=True)
     )

@@ -103,7 +103,8 @@ class TrainingRun:
             first, state = self.resume(stored, starts)
         try:
             for i in range(first, len(self.segments)):
-                if state is None and self.can_skip(i):
+                above = self.segments[i].stage.above if state is None else 0.0
+                if above > 0 and all(m.best.loss <= above * m.noise() for m in self.members):
                     continue
                 self.follow(i, self.enter(i) if state is None else state)
                 state = None
@@ -157,11 +158,6 @@ class TrainingRun:
         if i and self.segments[i - 1].stage.onward and self.last == i - 1:
             entries = unstacked(self.candidates[-1], len(self.members))
         return replicate(self._begin(i, entries), self.mesh)
-
-    def can_skip(self, i: int) -> bool:
-        """Whether all trainings are good enough to leave a segment out."""
-        above = self.segments[i].stage.above
-        return above > 0 and all(m.best.loss <= above * m.noise() for m in self.members)
 
     def _begin(self, i: int, entries: Sequence[Trainable]) -> State:
         segment = self.segments[i]
@@ -220,6 +216,7 @@ class TrainingRun:
                 self.evaluate()
             self._choose(i)
             self._keep(i, state)
+            counted = self.members[self.going[0]].log.evaluations[-1].events
             progress = Progress(
                 self.done,
                 self.epochs,
@@ -228,17 +225,12 @@ class TrainingRun:
                 ended - self.began,
                 per_epoch,
                 tuple(new),
-                self._events(),
+                sum(counted) if counted else None,
             )
             for observe in self.observers:
                 observe(progress)
         self.evaluate()
         self._keep(i, state)
-
-    def _events(self) -> int | None:
-        """How many events there are in all records of the training that is ahead, as last counted."""
-        counted = self.members[self.going[0]].log.evaluations[-1].events
-        return sum(counted) if counted else None
 
     def _choose(self, i: int) -> None:
         """Choose the trainings that go on; their number depends on the updates that were planned up to now."""

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.simulation.fixed_steps import Step
-from acausal.simulation.sampled_inputs import over_steps
+from acausal.simulation.fixed_steps import Steps
+from acausal.simulation.sampled_inputs import Samples, over_steps
 
 UNIFORM = np.linspace(0.0, 2.0, 21)
 UNEVEN = np.sort(np.r_[0.0, 2.0, np.random.default_rng(0).uniform(0, 2, 19)])
@@ -212,16 +212,12 @@ def test_sampled_inputs_are_their_signals_within_steps(interpolation, parts):
     for fraction in (0.0, 0.3, 0.8):
         coefficients = samples.coefficients
         for i in (0, 7, 20 * parts - 1):
-            step = Step(
-                grid[i],
-                grid[1],
-                samples.start[i],
-                samples.end[i],
-                None if coefficients is None else coefficients[i],
-            )
+            own = None if coefficients is None else coefficients[i]
+            inputs = Samples(samples.start[i], samples.end[i], samples.functions, own)
+            step = Steps(grid[i], grid[1], inputs)
             t = grid[i] + fraction * (grid[i + 1] - grid[i])
             expected = [signal(t) for signal in signals]
-            np.testing.assert_allclose(step.inputs(fraction, (None, None)), expected, atol=1e-9)
+            np.testing.assert_allclose(step.inputs_at(fraction), expected, atol=1e-9)
 
 
 def test_times_that_are_known_stay_so_where_jax_traces():

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import TextIO
 
@@ -135,7 +135,7 @@ def _read(
     need_time(selection, names, str(path))
     chosen = [selection.time, *selection.names(names, str(path))]
     blocks, runs = list[Float[np.ndarray, "rows columns"]](), list[str]()
-    for block in _blocks(head, lines):
+    for block in chain([head], iter(lambda: list(islice(lines, LINES)), [])):
         blocks.append(_numbers(block, [names.index(n) for n in chosen], names, dialect, path))
         if selection.group is not None:
             place = names.index(selection.group)
@@ -162,15 +162,6 @@ def _read(
     }
 
 
-def _blocks(
-    head: list[tuple[int, str]], lines: Iterator[tuple[int, str]]
-) -> Iterator[list[tuple[int, str]]]:
-    """Lines with their numbers, a block at a time; the first may be empty."""
-    yield head
-    while block := list(islice(lines, LINES)):
-        yield block
-
-
 def _numbers(
     block: Sequence[tuple[int, str]],
     chosen: list[int],
@@ -191,31 +182,24 @@ def _at_once(
     lines: list[str], chosen: list[int], width: int, dialect: Dialect
 ) -> Float[np.ndarray, "rows columns"] | None:
     """The numbers of lines that hold nothing but numbers; None for others."""
-    if not _have_width(lines, width, dialect.separator):
+    mark = dialect.separator
+    widths = {len(line.split()) if mark == " " else line.count(mark) + 1 for line in lines}
+    if widths != {width}:
         return None
     if dialect.decimal == ",":
-        if dialect.separator == "," or any("." in line for line in lines):
+        if mark == "," or any("." in line for line in lines):
             return None
         lines = [line.replace(",", ".") for line in lines]
     try:
         return np.loadtxt(
             lines,
             comments=None,
-            delimiter=None if dialect.separator == " " else dialect.separator,
+            delimiter=None if mark == " " else mark,
             usecols=chosen,
             ndmin=2,
         )
     except ValueError:
         return None
-
-
-def _have_width(lines: Iterable[str], width: int, separator: str) -> bool:
-    """Whether there are lines, and each has so many cells."""
-    if separator == " ":
-        widths = {len(line.split()) for line in lines}
-    else:
-        widths = {line.count(separator) + 1 for line in lines}
-    return widths == {width}
 
 
 def _row(

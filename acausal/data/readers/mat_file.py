@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, SignalTable, need_time
-from acausal.errors import DataError, listing, need_package, reason, shown
+from acausal.data.readers.table import Selection, SignalTable, beginning, need_time
+from acausal.errors import DataError, listing, need_package, shown
 
 HDF = b"\x89HDF\r\n\x1a\n"
 HDF_STARTS_AT = (0, 512)
@@ -24,7 +24,9 @@ def read_mat(path: Path, selection: Selection) -> SignalTable:
     Raises:
         DataError: for a file that cannot be read, or a chosen variable that is not a vector.
     """
-    arrays = dict(_flattened("", _hdf(path) if _is_hdf(path) else _version_5(path)))
+    start = beginning(path, max(HDF_STARTS_AT) + len(HDF))
+    is_hdf = any(start[at : at + len(HDF)] == HDF for at in HDF_STARTS_AT)  # version 7.3
+    arrays = dict(_flattened("", _hdf(path) if is_hdf else _version_5(path)))
     need_time(selection, arrays, str(path))
     time = _vector(arrays[selection.time])
     if time is None:
@@ -45,16 +47,6 @@ def read_mat(path: Path, selection: Selection) -> SignalTable:
     if odd:
         raise DataError(f"{path}: {listing(odd)} are not vectors of numbers; leave them out.")
     return selection.table(time, vectors, {}, str(path))
-
-
-def _is_hdf(path: Path) -> bool:
-    """Whether a file is of version 7.3."""
-    try:
-        with path.open("rb") as file:
-            start = file.read(max(HDF_STARTS_AT) + len(HDF))
-    except OSError as e:
-        raise DataError(f"{path} cannot be read: {reason(e)}.") from None
-    return any(start[at : at + len(HDF)] == HDF for at in HDF_STARTS_AT)
 
 
 def _version_5(path: Path) -> Mapping[str, Any]:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, SignalTable
-from acausal.errors import DataError, listing, need_package, reason, shown
+from acausal.data.readers.table import Selection, SignalTable, beginning
+from acausal.errors import DataError, listing, need_package, shown
 
 STARTS = (b"MDF     ", b"UnFinMF ")
 """What a finished file begins with, and one whose writing was broken off."""
@@ -25,12 +24,7 @@ def read_mdf(path: Path, selection: Selection) -> SignalTable:
         DataError: for a file that cannot be read, or a chosen channel that does not hold numbers.
     """
     asammdf = need_package("asammdf", "An MDF file", "mdf")
-    try:
-        with path.open("rb") as raw:
-            start = raw.read(len(STARTS[0]))
-    except OSError as e:
-        raise DataError(f"{path} cannot be read: {reason(e)}.") from None
-    if start not in STARTS:
+    if beginning(path, len(STARTS[0])) not in STARTS:
         raise DataError(f"{path} is not an MDF file: it does not begin with 'MDF'.")
     try:
         file = asammdf.MDF(path)
@@ -40,7 +34,8 @@ def read_mdf(path: Path, selection: Selection) -> SignalTable:
         places = _places(file)
         chosen = selection.names(places, str(path))
         try:
-            channels = _channels(file, places, chosen)
+            found = file.select([(None, *places[name]) for name in chosen])
+            channels = {n: c.validate() for n, c in zip(chosen, found, strict=True)}
         except Exception as e:
             raise DataError(f"{path} cannot be read: {shown(str(e))}.") from None
     usable = {n: c for n, c in channels.items() if _is_usable(c)}
@@ -65,14 +60,6 @@ def _places(file: Any) -> dict[str, tuple[int, int]]:
         for group, index in dict.fromkeys(of_name):
             places[name if len(of_name) == 1 else f"{name}@{group}"] = (group, index)
     return places
-
-
-def _channels(
-    file: Any, places: dict[str, tuple[int, int]], names: Sequence[str]
-) -> dict[str, Any]:
-    """The channels without invalid samples."""
-    found = file.select([(None, *places[name]) for name in names])
-    return {name: channel.validate() for name, channel in zip(names, found, strict=True)}
 
 
 def _is_usable(channel: Any) -> bool:

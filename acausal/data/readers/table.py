@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from acausal.data.by_signal import check_units
 from acausal.data.samples import Place, sample
-from acausal.errors import DataError, nearest, need_text, shown
+from acausal.errors import DataError, known_name, nearest, need_text, reason, shown
 from acausal.modeling import by_name, names_in
 
 HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
@@ -83,7 +84,7 @@ class Selection:
         Raises:
             DataError: if two signals get one name.
         """
-        called = {n: self._name(n) for n in signals}
+        called = {n: names_in([(self.rename or {}).get(n, n)], "rename")[0] for n in signals}
         renamed: dict[str, Any] = {}
         for name, samples in signals.items():
             if called[name] in renamed or called[name] == "time":
@@ -93,10 +94,6 @@ class Selection:
             renamed[called[name]] = samples
         found = {called.get(n, n): u for n, u in units.items() if n in signals or n == "time"}
         return SignalTable(time, renamed, {**found, **check_units(self.units)}, source, place)
-
-    def _name(self, column: str) -> str:
-        name = (self.rename or {}).get(column, column)
-        return names_in([name], "rename")[0]
 
 
 def headers(cells: Sequence[str], where: str) -> tuple[list[str], dict[str, str]]:
@@ -124,8 +121,7 @@ def headers(cells: Sequence[str], where: str) -> tuple[list[str], dict[str, str]
 
 def need_column(name: str, known: Collection[str], source: str) -> None:
     """Refuse a column that a source does not have."""
-    if name not in known:
-        raise DataError(f"{source} has no column '{name}': {nearest(name, known)}")
+    known_name(name, known, f"{source} has no column")
 
 
 def need_time(selection: Selection, known: Collection[str], source: str) -> None:
@@ -149,3 +145,16 @@ def seconds(times: np.ndarray, first: Any = None) -> np.ndarray:
         return times
     found = times / np.timedelta64(1, "s")
     return np.asarray(found, float)
+
+
+def beginning(path: Path, size: int) -> bytes:
+    """The first bytes of a file.
+
+    Raises:
+        DataError: if it cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            return file.read(size)
+    except OSError as e:
+        raise DataError(f"{path} cannot be read: {reason(e)}.") from None

@@ -15,7 +15,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import without_derivatives
+from acausal._jax import either, without_derivatives
 from acausal.codegen import StateJacobian
 from acausal.simulation.newton import Equation, Fields, Newton, Patience, Rates, solve
 from acausal.simulation.steps.multistep import (
@@ -179,20 +179,19 @@ class Multistep(eqx.Module):
                 self.jacobian.iteration_matrix.solve(fixed, r), x_before, found
             )
 
-        look = look_inside(problem, error, INSIDE, size, OF_DEFECT)
-        looked = (error < 1) & (look.error >= 1)
-        error, accepted = look.error, look.error < 1
+        error, rates, looked = look_inside(problem, error, INSIDE, size, OF_DEFECT)
+        accepted = error < 1
         dense = StepPolynomial(jnp.concatenate([exact[None], memory.states]), _with_end(s), q)
         solved = m._replace(matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted))
         after = self._after(problem, solved, h, end, without_derivatives(dense), error)
         after = after._replace(states=dense.states[:-1])
         before = self._before(solved, newton, renew, h, error)._replace(states=memory.states)
         made = newton.made
-        counts = Counts.of(rates=made + look.rates, jacobians=renew, corrections=made, looks=looked)
+        counts = Counts.of(rates=made + rates, jacobians=renew, corrections=made, looks=looked)
         return Attempt(
             accepted,
             exact,
-            jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
+            either(accepted, after, before),
             dense,
             StepEquation(c, own, end, m.times, q),
             jnp.array(False),

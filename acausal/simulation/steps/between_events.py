@@ -9,12 +9,34 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import cond_any, without_derivatives
-from acausal.events import COINCIDE, POINTS, Bracketing, Events, guards, look, no_bracketing
+from acausal._jax import cond_any, either, without_derivatives
+from acausal.events import (
+    COINCIDE,
+    POINTS,
+    After,
+    Bracketing,
+    Events,
+    fire,
+    guards,
+    look,
+    no_bracketing,
+)
 from acausal.simulation.log import Log
 from acausal.simulation.steps.one_step import Memory
 from acausal.simulation.steps.problem import Attempt, Counts, Integration
-from acausal.simulation.steps.rows import EDGE, JUMP, STATE, TIMED, Reach, Row, follow, reach
+from acausal.simulation.steps.rows import (
+    EDGE,
+    JUMP,
+    RESTART,
+    STATE,
+    TIMED,
+    Reach,
+    Row,
+    rates_at,
+    reach,
+    restarted,
+    values_at,
+)
 from acausal.simulation.steps.simultaneous_events import follow_in_turn
 
 CHATTERING = 12
@@ -191,24 +213,20 @@ def land(
     seen: EventsInStep,
     plain: Landing,
     happens: Bool[Array, ""],
-    *,
-    forward: bool,
 ) -> Landing:
     """Where a step leads: on, or behind the event at its end.
 
     Arguments:
         memory: the method's before it. row: the step. h: its length, with derivatives.
         plain: where it leads if nothing happens. happens: whether something does.
-        forward: whether derivatives in forward mode must work.
     """
 
     def event() -> Landing:
         end = Reach(plain.t, made.x, h, made.dense)
-        if forward:
+        if problem.forward:
             end = reach(method, problem, row, row.t, row.x, row.d, is_event=True)
-        in_turn = follow_in_turn if forward and problem.watched.n_guards > 1 else None
-        t, after = follow(problem, row, end, row.d, in_turn)
-        there = (end.dense, end.h) if forward else None
+        t, after = _follow(problem, row, end)
+        there = (end.dense, end.h) if problem.forward else None
         return plain._replace(t=t, x=after.x, d=after.d, converged=after.converged, within=there)
 
     def goes_on() -> Landing:
@@ -218,8 +236,8 @@ def land(
             free=jnp.where(seen.doubted, 0, memory.free),
         )
         stays = seen.bracketing.active | (seen.part < 1)
-        kept = jax.tree.map(lambda a, b: jnp.where(stays, a, b), shorter, made.memory)
-        within = (made.dense, h) if forward else None
+        kept = either(stays, shorter, made.memory)
+        within = (made.dense, h) if problem.forward else None
         return plain._replace(memory=kept, d=row.d, converged=jnp.array(True), within=within)
 
     landing, begins = cond_any(happens, event, goes_on), happens
@@ -229,6 +247,26 @@ def land(
     begun = lambda: begun_again(method, problem.held(landing.d), landing)  # noqa: E731
     kept, cost = cond_any(begins, begun, lambda: (landing.memory, landing.cost))
     return landing._replace(memory=kept, cost=cost)
+
+
+def _follow(problem: Integration, row: Row, end: Reach) -> tuple[Float[Array, ""], After]:
+    """Time and values behind a step that ends with an event, or where another run begins; ``end``: before the event."""
+
+    def event() -> tuple[Array, After]:
+        if problem.forward and problem.watched.n_guards > 1:
+            return follow_in_turn(problem, row, end, row.d)
+        at = values_at(problem, end.t, end.x, row.d)
+        return end.t, fire(problem.watched, at, row.band, rates_at(problem, end.t))
+
+    if problem.first is None:
+        return event()
+
+    def restart() -> tuple[Array, After]:
+        x, d = restarted(problem, row.which)
+        assert d is not None
+        return end.t, After(x, d, jnp.array(True))
+
+    return lax.cond(row.kind == RESTART, restart, event)
 
 
 def begun_again(method: Any, problem: Integration, landing: Landing) -> tuple[Any, Counts]:

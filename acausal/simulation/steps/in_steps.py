@@ -127,13 +127,14 @@ class InSteps:
             max_steps,
             events=run.system.events,
             max_step=None if max_step is None else array(max_step),
+            forward=self.forward,
         )
         problem, d = cast((problem, run.start.d), self.dtype)
         log = None
         if d is not None:
             room = FEW_VALUES if traced(problem, d) else VALUES
             log = Log.empty(len(problem.x) + len(d), self.dtype, values=room)
-        return first_run(problem, method, d=d, log=log, forward=self.forward)
+        return first_run(problem, method, d=d, log=log)
 
 
 def _stopped(

@@ -15,7 +15,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import cond_any, while_any, without_derivatives
+from acausal._jax import cond_any, either, while_any, without_derivatives
 from acausal.events import Ahead
 from acausal.simulation.log import Log
 from acausal.simulation.steps import between_events
@@ -109,33 +109,14 @@ class LoopState(NamedTuple):
         return self._replace(events=self.events._replace(log=self.events.log.short()))
 
 
-def search(
-    method: Any,
-    problem: Integration,
-    start: LoopStart,
-    *,
-    until_stiff: bool = False,
-    forward: bool = False,
-) -> LoopResult:
-    """Go from a start to the end of a problem.
-
-    Arguments:
-        method: of the steps.
-        problem: what is integrated.
-        start: where.
-        until_stiff: whether to stop where stability limits the steps.
-        forward: whether derivatives in forward mode must work.
-    """
+def search(method: Any, problem: Integration, start: LoopStart) -> LoopResult:
+    """Go from a start to the end of a problem by the steps of a method."""
     progress, saved = begin(method, problem, start)
-    last, saved, _ = advance(
-        method, problem, progress, saved, until_stiff=until_stiff, forward=forward
-    )
-    return found(problem, last, saved, forward=forward)
+    last, saved, _ = advance(method, problem, progress, saved)
+    return found(problem, last, saved)
 
 
-def found(
-    problem: Integration, last: LoopState, saved: Saved, *, forward: bool = False
-) -> LoopResult:
+def found(problem: Integration, last: LoopState, saved: Saved) -> LoopResult:
     """The result of a run; with events, what is to be saved at its end is what follows the last of them.
 
     In forward mode, ``last`` may have reached the end at a time that moves.
@@ -144,11 +125,11 @@ def found(
     if last.events is not None:
         reached = last.why == REACHED
         left = ((jnp.arange(len(problem.ts)) >= last.next) & reached)[:, None]
-        if forward:
+        if problem.forward:
             rest = rates_behind(problem, last.t, x, last.events.d) * (problem.end - last.t)
             x = x + jnp.where(reached, rest, 0.0)
         at_end = x, last.events.d
-        saved = jax.tree.map(lambda a, b: jnp.where(left, a, b), at_end, saved)
+        saved = either(left, at_end, saved)
         log = last.events.log
     return LoopResult(saved, last.t, x, last.d, last.next, last.why, last.counts, log)
 
@@ -185,14 +166,11 @@ def advance(
     progress: LoopState,
     saved: Saved | None,
     rows: Row | None = None,
-    *,
-    until_stiff: bool = False,
-    forward: bool = False,
 ) -> tuple[LoopState, Any, Row | None]:
     """Make steps until the end, or until there is no more room for them.
 
     Arguments:
-        method, problem, until_stiff, forward: as for `search`.
+        method, problem: as for `search`.
         progress: so far.
         saved: what is saved so far; ``None``: save nothing.
         rows: room for what is needed to make these steps again, with a leading axis, if it is asked for.
@@ -212,7 +190,7 @@ def advance(
         carry: tuple[LoopState, Any, Row | None], runs: Array
     ) -> tuple[LoopState, Any, Row | None]:
         c, saved, rows = carry
-        aim = _aimed(method, problem, c, kinds[c.ahead], forward=forward)
+        aim = _aimed(method, problem, c, kinds[c.ahead])
         made: Attempt = method.attempt(aim.held, c.memory, c.t, aim.h)
         ok, stop, seen = made.accepted, aim.stop, None
         if c.events is not None:
@@ -229,7 +207,7 @@ def advance(
         landing = Landing(t, jnp.where(ok, made.x, c.x), made.memory, Counts.of())
         if seen is not None:
             landing = between_events.land(
-                method, problem, c.memory, row, made, aim.h, seen, landing, happens, forward=forward
+                method, problem, c.memory, row, made, aim.h, seen, landing, happens
             )
         elif len(problem.breaks) or problem.field.has_edges:
             begun = partial(_begun_again, method, problem, row, landing, aim.moved)
@@ -252,7 +230,7 @@ def advance(
             why = jnp.where(events.chattering >= between_events.CHATTERING, CHATTERS, why)
             why = jnp.where(landing.converged, why, NOT_CONVERGED)
             reached = reached & landing.converged
-        if until_stiff:
+        if problem.until_stiff:
             is_stiff = made.stiff if seen is None else made.stiff & ~happens
             why = jnp.where(is_stiff, STIFF, why)
         why = jnp.where(reached, REACHED, why).astype(jnp.int32)
@@ -262,7 +240,7 @@ def advance(
         unchanged = c
         if c.events is not None and events is not None:  # the log does not grow where a run is over
             unchanged = c._replace(events=c.events._replace(log=events.log))
-        after = jax.tree.map(lambda a, b: jnp.where(runs, a, b), after, unchanged)
+        after = either(runs, after, unchanged)
         return after, saved, rows
 
     return while_any(goes_on, body, (progress, saved, rows))
@@ -287,7 +265,7 @@ class Aim(NamedTuple):
     moved: Array | None
 
 
-def _aimed(method: Any, problem: Integration, c: LoopState, kind: Array, *, forward: bool) -> Aim:
+def _aimed(method: Any, problem: Integration, c: LoopState, kind: Array) -> Aim:
     """The next step: as long as its error, edges, breaks, known events and the search for one allow."""
     stop = between_events.Stop(stop_at(problem, c.ahead), kind, c.ahead)
     held = problem.held(c.d, stop.t)
@@ -302,7 +280,7 @@ def _aimed(method: Any, problem: Integration, c: LoopState, kind: Array, *, forw
     if has_edges and c.events is None:  # the steps stay where they are: see `_begun_again`
         at_edge = (stop.kind == BEND) | (stop.kind == EDGE)
         fixed = jnp.where(at_edge, lax.stop_gradient(stop.t), stop.t)
-        moved, stop = stop.t - fixed if forward else None, stop._replace(t=fixed)
+        moved, stop = stop.t - fixed if problem.forward else None, stop._replace(t=fixed)
     by_wave, by_span = jnp.array(False), jnp.array(False)
     if problem.max_step is not None:
         by_span = (problem.max_step < proposed) & (problem.max_step < longest)

@@ -19,9 +19,8 @@ from acausal.simulation.newton import (
 from acausal.simulation.stages import ImplicitScheme
 from acausal.simulation.steps.bdf import Multistep
 from acausal.simulation.steps.one_step import Foreign
-from acausal.simulation.steps.paced import Paced
 from acausal.simulation.steps.problem import Integration
-from acausal.simulation.steps.runge_kutta import Diagonal, Explicit
+from acausal.simulation.steps.runge_kutta import Diagonal, Explicit, Paced
 from acausal.simulation.tableau import Tableau, tableau_of
 
 Method: TypeAlias = Explicit | Diagonal | Foreign | Multistep

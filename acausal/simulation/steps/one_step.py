@@ -13,7 +13,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import without_derivatives
+from acausal._jax import either, without_derivatives
 from acausal.simulation.steps.problem import Attempt, Counts, Integration, RightHandSide
 
 State = Float[Array, " n_states"]
@@ -83,26 +83,22 @@ class Made(NamedTuple):
     counts: Counts
 
 
-class Look(NamedTuple):
-    """The error of a step after a look at points within, and the evaluations that took."""
-
-    error: Float[Array, ""]
-    rates: Int[Array, ""]
-
-
 def look_inside(
     problem: Integration,
     error: Array,
     points: tuple[float, ...],
     size: Callable[[Any], Array],
     weight: float,
-) -> Look:
+) -> tuple[Array, Array, Array]:
     """Look at more points of a step whose error is small, or in which the right-hand side may bend.
 
     Arguments:
         error: of the step, over what is allowed.
         points: shares of the step. size: the defect at one, over what is allowed.
         weight: what a defect counts as an error.
+
+    Returns:
+        The error of the step after that, the evaluations that took, and whether the step counts no more.
     """
     looks = error < (1.0 if problem.field.bends else SMALL)
 
@@ -113,7 +109,8 @@ def look_inside(
 
     found = lax.cond(looks, largest, lambda: jnp.zeros_like(error))
     found = weight * jnp.where(jnp.isfinite(found), found, jnp.inf)
-    return Look(jnp.maximum(error, found), len(points) * looks.astype(jnp.int32))
+    found = jnp.maximum(error, found)
+    return found, len(points) * looks.astype(jnp.int32), (error < 1) & (found >= 1)
 
 
 def defect(
@@ -166,9 +163,15 @@ class OneStep(eqx.Module):
         made = self.make(problem.field, t, h, x, memory.first)
         error = lax.stop_gradient(problem.tolerances.size(made.error, x, made.x))
         error = jnp.where(made.done & jnp.isfinite(error), error, jnp.inf)
-        look = self._look(problem, made, t, h, x, error)
-        looked = (error < 1) & (look.error >= 1)
-        error, accepted = look.error, look.error < 1
+        fixed, dense = without_derivatives((problem, made.dense))
+        begin, length, *ends = lax.stop_gradient((t, h, x, made.x))
+
+        def size(share: Any) -> Array:
+            off = defect(self, fixed, dense, begin, length, share)[1]
+            return fixed.tolerances.size(off, *ends)
+
+        error, rates, looked = look_inside(problem, error, INSIDE, size, OF_DEFECT)
+        accepted = error < 1
         factor = SAFETY * error ** (-1 / self._order)
         least, most = jnp.where(accepted, 1.0, SHORTER), jnp.where(accepted, LONGER, SAFETY)
         longer = h * jnp.clip(factor, least, most).astype(h.dtype)
@@ -182,24 +185,13 @@ class OneStep(eqx.Module):
         return Attempt(
             accepted,
             made.x,
-            jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
+            either(accepted, after, before),
             made.dense,
             (),
             is_limited,
             accepted & (limited >= STIFF_AFTER),
-            made.counts.plus(Counts.of(rates=look.rates, looks=looked)),
+            made.counts.plus(Counts.of(rates=rates, looks=looked)),
         )
-
-    def _look(
-        self, problem: Integration, made: Made, t: Array, h: Array, x: State, error: Array
-    ) -> Look:
-        """The error with what the right-hand side is at two more points."""
-        fixed, dense, t, h, x, end = without_derivatives((problem, made.dense, t, h, x, made.x))
-
-        def size(share: Any) -> Array:
-            return fixed.tolerances.size(defect(self, fixed, dense, t, h, share)[1], x, end)
-
-        return look_inside(problem, error, INSIDE, size, OF_DEFECT)
 
     def between(self, dense: dict[str, Any], t: Array, h: Array, at: Array) -> State:
         """The state at a time within a step from t of length h."""

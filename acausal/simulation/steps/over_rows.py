@@ -16,8 +16,9 @@ from jaxtyping import Array, Float
 
 from acausal.codegen import Field, Packed, Values
 from acausal.events import Ahead
-from acausal.simulation.fixed_steps import Integrated, Runs, Step, Steps
+from acausal.simulation.fixed_steps import Integrated, Runs, Steps
 from acausal.simulation.log import Log
+from acausal.simulation.sampled_inputs import Samples
 from acausal.simulation.solvers import Scheme, Solver
 from acausal.simulation.steps.loop import REACHED
 from acausal.simulation.steps.methods import paced
@@ -113,23 +114,18 @@ class Clock(RightHandSide):
 
     def at(self, t: Array) -> Field:
         """It at one time of the clock."""
-        steps = self.steps
+        steps, inputs = self.steps, self.steps.inputs
         row = self._row(t if self.until is None else jnp.minimum(t, self.until))
         begin, start, end, coefficients, parts = (
             jax.tree.map(lambda a: a[row], part)
-            for part in (
-                steps.t,
-                steps.inputs.start,
-                steps.inputs.end,
-                steps.inputs.coefficients,
-                steps.parts,
-            )
+            for part in (steps.t, inputs.start, inputs.end, inputs.coefficients, steps.parts)
         )
         h = self._length(row)
-        step = Step(begin, h, start, end, coefficients, parts)
+        step = Steps(begin, h, Samples(start, end, inputs.functions, coefficients), parts)
         fraction = (t - self.edges[row]) / h
-        u = step.inputs(fraction, steps.inputs.functions)
-        return self.system.field(step.time(fraction), u, self._packed(row), self.d)
+        return self.system.field(
+            step.time(fraction), step.inputs_at(fraction), self._packed(row), self.d
+        )
 
 
 def integrate_in_steps(
@@ -204,9 +200,10 @@ def integrate_in_steps(
         *others,
         events=events,
         max_tries=None if tries is None else tries * n * parts + FEWEST,
+        forward=direct,
     )
     log = None if d0 is None else Log.empty(len(start.x) + len(d0), dtype, values=0)
-    found = solve(first_run(problem, method, d=d0, log=log, forward=direct)).found
+    found = solve(first_run(problem, method, d=d0, log=log)).found
     x, d = found.saved
     if restarts is not None:
         x = jnp.where(restarts.begins[:, None], restarts.first, x)

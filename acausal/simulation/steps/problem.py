@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -112,6 +113,8 @@ class Integration(eqx.Module):
         events: of the model; None for one without.
         max_step: the longest step, in seconds; None: as long as its error allows.
         max_tries: limit of steps, those that only search for the instant of an event included; None: none.
+        until_stiff: whether to stop where stability limits the steps.
+        forward: whether derivatives in forward mode must work, of any order, and none in reverse mode.
     """
 
     field: RightHandSide
@@ -130,6 +133,8 @@ class Integration(eqx.Module):
     events: Events | None = eqx.field(static=True, default=None)
     max_step: Float[Array, ""] | None = None
     max_tries: int | None = eqx.field(static=True, default=None)
+    until_stiff: bool = eqx.field(static=True, default=False)
+    forward: bool = eqx.field(static=True, default=False)
 
     @property
     def watched(self) -> Events:
@@ -148,14 +153,8 @@ class Integration(eqx.Module):
         if until is not None:
             until = lax.stop_gradient(until)  # `nextafter` has no derivative
             until = jnp.nextafter(until, jnp.full_like(until, -jnp.inf))
-        sides = self.field.d if d is None else d, until
-        places = lambda p: (p.field.d, p.field.until)  # noqa: E731
-        return eqx.tree_at(places, self, sides, is_leaf=lambda leaf: leaf is None)
-
-    @property
-    def most_steps(self) -> int:
-        """How many steps there may be, those at edges included."""
-        return self.max_steps * (EDGE_STEPS if self.field.has_edges else 1)
+        d = self.field.d if d is None else d
+        return replace(self, field=replace(self.field, d=d, until=until))
 
     def apart(self, t: Float[Array, ""]) -> Float[Array, ""]:
         """How far another time must be from one to be another."""
@@ -173,7 +172,7 @@ class Integration(eqx.Module):
         low, high = lax.stop_gradient((t + self.apart(t), edge - self.apart(t)))
         f = self.field
         sided = Sided(f, low, high, system=f.system, d=f.d, until=f.until)
-        return eqx.tree_at(lambda p: p.field, self, sided)
+        return replace(self, field=sided)
 
     def behind(self, t: Float[Array, ""]) -> Integration:
         """The problem behind a time at which something has happened: an edge there is seen from its other side."""

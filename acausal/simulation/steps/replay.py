@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Int
 
-from acausal._jax import room, while_any, with_steps, without_derivatives
+from acausal._jax import either, room, while_any, with_steps, without_derivatives
 from acausal.simulation.steps.event_adjoint import (
     Adjoint,
     OfMoved,
@@ -31,7 +31,7 @@ from acausal.simulation.steps.loop import (
     row_like,
     search,
 )
-from acausal.simulation.steps.problem import Integration
+from acausal.simulation.steps.problem import EDGE_STEPS, Integration
 from acausal.simulation.steps.rows import (
     EDGE,
     RESTART,
@@ -78,37 +78,31 @@ class RecordedSteps(eqx.Module):
     end: tuple[Any, ...]
 
 
-def reverse(
-    method: Any, problem: Integration, start: LoopStart, *, until_stiff: bool = False
-) -> LoopResult:
+def reverse(method: Any, problem: Integration, start: LoopStart) -> LoopResult:
     """`search`, with derivatives in reverse mode.
 
     The states of all steps are kept, as far as there is room (`_size`). Of a longer run they are kept part by part:
     the derivative makes each part again from its start.
     """
-    return with_steps(
-        (method, problem, start),
-        lambda task: search(*task, until_stiff=until_stiff),
-        lambda task: _kept(task, until_stiff),
-        partial(_back, until_stiff),
-    )
+    return with_steps((method, problem, start), lambda task: search(*task), _kept, _back)
 
 
-def _kept(task: Task, until_stiff: bool) -> tuple[LoopResult, RecordedSteps]:
+def _kept(task: Task) -> tuple[LoopResult, RecordedSteps]:
     """The result of a run, and its steps."""
     method, problem, start = task
     progress, saved = begin(method, problem, start)
     like = row_like(method, problem, progress)
     numbers = sum(a.size for a in jax.tree.leaves(like))
     size = min(problem.max_steps, _size(numbers, problem))
-    most = -(-problem.most_steps // size)
+    most_steps = problem.max_steps * (EDGE_STEPS if problem.field.has_edges else 1)
+    most = -(-most_steps // size)
     rows, parts = room(like, size), room(progress.short(), most)
 
     def one(carry: tuple[Any, ...], runs: Array) -> tuple[Any, ...]:
         i, progress, saved, parts, rows, n = carry
         k = jnp.where(runs, i, most)
         parts = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), parts, progress.short())
-        last, saved, rows = advance(method, problem, progress, saved, rows, until_stiff=until_stiff)
+        last, saved, rows = advance(method, problem, progress, saved, rows)
         n = jnp.where(runs, last.counts.steps - progress.counts.steps, n)
         return i + runs, last, saved, parts, rows, n
 
@@ -131,9 +125,7 @@ def _size(numbers: int, problem: Integration) -> int:
     return small if small >= FEWEST else max(min(MORE_MEMORY // numbers, ENOUGH), FEWEST)
 
 
-def _back(
-    until_stiff: bool, of_moved: OfMoved, own: list[Array], kept: RecordedSteps, to: LoopResult
-) -> list[Array]:
+def _back(of_moved: OfMoved, own: list[Array], kept: RecordedSteps, to: LoopResult) -> list[Array]:
     """The cotangents of what moves."""
     method, problem, _ = of_moved(own)
     size, parts = len(kept.rows.t), kept.parts.t.shape[0]
@@ -158,7 +150,7 @@ def _back(
         if parts > 1:
 
             def again() -> tuple[Row, Array]:
-                made = advance(method, problem, progress, None, rows, until_stiff=until_stiff)[2]
+                made = advance(method, problem, progress, None, rows)[2]
                 assert made is not None
                 return made, jnp.asarray(size, n.dtype)
 
@@ -180,7 +172,7 @@ def _back(
                     begin = jnp.where(again, restarted(problem, before.which)[0], begin)
                 return k - 1, _through_step(of_moved, own, row, begin, to, which, behind)
             after = _row(rows, jnp.minimum(k + 1, size - 1))
-            values = jax.tree.map(lambda a, b: jnp.where(k < n - 1, a, b), (after.x, after.d), then)
+            values: Any = either(k < n - 1, (after.x, after.d), then)
             through = partial(_through_event, of_moved, own, row, to, which, values)
             plain, event = (partial(through, is_event=b) for b in (False, True))
             return k - 1, lax.cond(row.kind > EDGE, event, plain, behind)

@@ -12,7 +12,7 @@ from jaxtyping import Array, Float, Int
 
 from acausal._jax import without_derivatives
 from acausal.codegen import Values
-from acausal.events import After, Rates, fire, guards, guards_and_rates
+from acausal.events import Rates, guards, guards_and_rates
 from acausal.simulation.steps.problem import Integration
 
 FREE, STOP, BEND, EDGE, RESTART, JUMP, TIMED, STATE = range(8)
@@ -59,10 +59,6 @@ class Reach(NamedTuple):
     x: Float[Array, " n_states"]
     h: Float[Array, ""]
     dense: Any
-
-
-Event = Callable[[Integration, Row, Reach, Array], tuple[Array, After]]
-"""Time and values behind an event."""
 
 
 def stop_at(problem: Integration, i: Int[Array, ""]) -> Float[Array, ""]:
@@ -190,33 +186,6 @@ def rates_at(problem: Integration, t: Array) -> Rates:
         return number, change(jnp.ones_like(t), rate)[0]
 
     return rates
-
-
-def follow(
-    problem: Integration, row: Row, end: Reach, d: Array, in_turn: Event | None = None
-) -> tuple[Float[Array, ""], After]:
-    """What follows a step that ends with an event, or where another run begins.
-
-    Arguments:
-        problem, row: what is integrated, and the step. end, d: values at its end, before the event.
-        in_turn: what an event leads to, where derivatives must work in forward mode.
-    """
-
-    def event() -> tuple[Array, After]:
-        if in_turn is not None:
-            return in_turn(problem, row, end, d)
-        at = values_at(problem, end.t, end.x, d)
-        return end.t, fire(problem.watched, at, row.band, rates_at(problem, end.t))
-
-    if problem.first is None:
-        return event()
-
-    def restart() -> tuple[Array, After]:
-        x, d = restarted(problem, row.which)
-        assert d is not None
-        return end.t, After(x, d, jnp.array(True))
-
-    return lax.cond(row.kind == RESTART, restart, event)
 
 
 def restarted(problem: Integration, which: Int[Array, ""]) -> tuple[Array, Array | None]:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from acausal._jax import either
 from acausal.events import After, Rates, fire, guards
 from acausal.simulation.steps.problem import Integration
 from acausal.simulation.steps.rows import Reach, Row, chosen, moved_by, rates_at, values_at
@@ -107,16 +107,13 @@ def follow_in_turn(
         k, t, x, d_now, whole, fits = state
         own = turn(row, d_now, k - 1, k == 0)
         later = until(problem, row, guard_of(row, k - 1), t, x, d_now)
-        t, x = (jnp.where(k > 1, a, b) for a, b in zip(later, (t, x), strict=True))
+        t, x = either(k > 1, later, (t, x))
         at = values_at(problem, t, x, d_now)
         after = fire(problem.watched, at, row.band, own.rates(rates), forced=own.forced)
         fits = fits & still_wait(problem, row, own, t, after.x, after.d)
         first = k == 0
-        whole = jax.tree.map(lambda a, b: jnp.where(first, a, b), after, whole)
-        t, x, d_now = (
-            jnp.where(first, a, b)
-            for a, b in zip((end.t, end.x, d), (t, after.x, after.d), strict=True)
-        )
+        whole = either(first, after, whole)
+        t, x, d_now = either(first, (end.t, end.x, d), (t, after.x, after.d))
         return k + 1, t, x, d_now, whole, fits & after.converged
 
     def goes_on(state: tuple[Any, ...]) -> Array:
@@ -126,11 +123,7 @@ def follow_in_turn(
     start = jnp.asarray(0), end.t, end.x, d, After(end.x, d, yes), yes
     _, t, x, d_end, whole, fits = lax.while_loop(goes_on, one, start)
     apart = fits & (n > 1) & same((x, d_end), (whole.x, whole.d))
-    picked = (
-        jnp.where(apart, a, b)
-        for a, b in zip((t, x, d_end), (end.t, whole.x, whole.d), strict=True)
-    )
-    t, x, d_end = picked
+    t, x, d_end = either(apart, (t, x, d_end), (end.t, whole.x, whole.d))
     return t, After(x, d_end, whole.converged)
 
 

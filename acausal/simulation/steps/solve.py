@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import array, compile_ahead, compiled, known, two_modes
+from acausal._jax import array, compile_ahead, compiled, either, known, two_modes
 from acausal.errors import SimulationError
 from acausal.simulation.log import Log
 from acausal.simulation.solvers import Solver
@@ -35,8 +35,6 @@ class FirstRun(NamedTuple):
     method: Method | OneStep
     problem: Integration
     start: LoopStart
-    until_stiff: bool
-    forward: bool
 
 
 def first_run(
@@ -45,7 +43,6 @@ def first_run(
     *,
     d: Float[Array, " n_discrete"] | None = None,
     log: Log | None = None,
-    forward: bool = False,
 ) -> FirstRun:
     """What is run first to solve a problem.
 
@@ -54,21 +51,20 @@ def first_run(
         solver: one with an error estimate, or a method; ``None``: Tsit5, and a stiff method from where the model is
             stiff.
         d: discrete variables at the start. log: the empty log of the run. Both None without events.
-        forward: allow derivatives in forward mode only, of any order.
 
     Raises:
         SimulationError: for a solver that knows more than the state at a step's start, if there are events.
     """
     start = LoopStart(problem.begin, problem.x, array(0, int), d, log)
     if solver is None:
-        return FirstRun(explicit(), problem, start, True, forward)
+        return FirstRun(explicit(), replace(problem, until_stiff=True), start)
     method = solver if isinstance(solver, OneStep) else method_of(solver, problem)
     if problem.events is not None and not isinstance(method, OneStep):
         raise SimulationError(
             f"solver {method.name} goes on from steps before an event, which ends them all; choose 'auto', or "
             "'kvaerno5' for stiff models with events"
         )
-    return FirstRun(method, problem, start, False, forward)
+    return FirstRun(method, problem, start)
 
 
 def begin_to_compile(first: FirstRun) -> None:
@@ -79,7 +75,7 @@ def begin_to_compile(first: FirstRun) -> None:
 def solve(first: FirstRun) -> Solved:
     """Solve a problem, by the first run and by what follows from it."""
     found, name = _run(*first), first.method.name
-    if not first.until_stiff:
+    if not first.problem.until_stiff:
         return Solved(found, name, array(np.nan))
     why = known(found.why)
     if why is not None and int(why) not in (STIFF, EXHAUSTED):
@@ -93,10 +89,10 @@ def _goes_on(run: FirstRun, first: LoopResult, second: Method) -> Solved:
     goes_on = (first.why == STIFF) | (first.why == EXHAUSTED)
     begin = jnp.where(goes_on, first.t, problem.end)  # nothing is left to do where it is not stiff
     again = LoopStart(begin, first.x, first.next, first.d, first.log)
-    rest = _run(second, problem, again, False, run.forward)
+    rest = _run(second, replace(problem, until_stiff=False), again)
     earlier = (jnp.arange(len(problem.ts)) < first.next)[:, None]
     joined = rest._replace(
-        saved=jax.tree.map(lambda a, b: jnp.where(earlier, a, b), first.saved, rest.saved),
+        saved=either(earlier, first.saved, rest.saved),
         why=jnp.where(goes_on, rest.why, first.why),
         counts=first.counts.plus(rest.counts),
     )
@@ -105,20 +101,14 @@ def _goes_on(run: FirstRun, first: LoopResult, second: Method) -> Solved:
 
 
 @compiled
-def _run(
-    method: Method | OneStep,
-    problem: Integration,
-    start: LoopStart,
-    until_stiff: bool,
-    forward: bool,
-) -> LoopResult:
+def _run(method: Method | OneStep, problem: Integration, start: LoopStart) -> LoopResult:
     arrays, rest = eqx.partition((method, problem, start), eqx.is_array)
 
     def forwards(arrays: PyTree) -> LoopResult:
         method, problem, start = eqx.combine(arrays, rest)
-        return search(method, problem, start, until_stiff=until_stiff, forward=True)
+        return search(method, replace(problem, forward=True), start)
 
     def backwards(arrays: PyTree) -> LoopResult:
-        return reverse(*eqx.combine(arrays, rest), until_stiff=until_stiff)
+        return reverse(*eqx.combine(arrays, rest))
 
-    return forwards(arrays) if forward else two_modes(backwards, forwards)(arrays)
+    return forwards(arrays) if problem.forward else two_modes(backwards, forwards)(arrays)

@@ -7,7 +7,7 @@ Hessian. A step of Gauss-Newton is tried with several dampings at once, from the
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -155,7 +155,7 @@ def with_constants_at_zero(
     """
     given, objective, held, loose = start, start.problem, list[int](), list[str]()
     places = _places(objective, shapes)
-    rising, rest = _rising(places, shapes), [n for n in shapes if _has_constant(shapes[n])]
+    rising, rest = _rising(places, shapes), [n for n, s in shapes.items() if s.has_constant]
     if rest and np.isfinite(start.loss):
         objective, trainable = resized(objective, start.trainable)
         point = np.array(ravel_pytree(trainable)[0])
@@ -181,11 +181,6 @@ def with_constants_at_zero(
             if shapes[name].every == 1:
                 held, start = trial, again
     return replace(start if held else given, loose=tuple(n for n in shapes if n in loose))
-
-
-def _has_constant(shape: LawShape) -> bool:
-    """Whether a law has a constant."""
-    return not shape.through_zero and not shape.energy and not shape.positive
 
 
 def _covariance(start: LinearStart, held: Sequence[int]) -> np.ndarray:
@@ -298,10 +293,6 @@ def _together(base: np.ndarray, places: Sequence[int]) -> list[np.ndarray]:
     return points
 
 
-def _batches(points: Sequence[np.ndarray]) -> Iterator[Sequence[np.ndarray]]:
-    return (points[k : k + BATCH] for k in range(0, len(points), BATCH))
-
-
 class _Points:
     """Losses and their derivatives at points."""
 
@@ -311,7 +302,8 @@ class _Points:
 
     def at(self, points: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Losses, infinite where the model diverges, gradients, Hessians."""
-        each = zip(*map(self._batch, _batches(points)), strict=True)
+        batches = (points[k : k + BATCH] for k in range(0, len(points), BATCH))
+        each = zip(*map(self._batch, batches), strict=True)
         loss, gradient, hessian = map(np.concatenate, each)
         return loss, gradient, hessian
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import jax.numpy as jnp
@@ -19,7 +19,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float
 
 from acausal._jax import is_number
-from acausal.errors import TrainingError, nearest, shown
+from acausal.errors import TrainingError, known_name, shown
 
 LEAST = 1e-6
 """The smallest level that is estimated, relative to a target's standard deviation."""
@@ -29,10 +29,6 @@ ITERATIONS = 40
 
 Levels = Mapping[str, float]
 """Standard deviations by target, in its unit; those of other targets are estimated."""
-
-
-def _none() -> Levels:
-    return {}
 
 
 @dataclass(frozen=True)
@@ -46,10 +42,10 @@ class ErrorLaw(ABC):
         noise: levels by target, in its unit; those of other targets are estimated.
     """
 
-    noise: Levels = field(default_factory=_none, hash=False, kw_only=True)
+    noise: Levels = field(default_factory=dict[str, float], hash=False, kw_only=True)
 
     def __post_init__(self) -> None:
-        """Check the levels.
+        """Check the levels, and the numbers of the law.
 
         Raises:
             TrainingError: for what is not a positive number.
@@ -66,6 +62,10 @@ class ErrorLaw(ABC):
                     f"{name}: the noise of '{target}' is {shown(level)}; "
                     "give its positive standard deviation, in the target's unit."
                 )
+        for each in fields(self):
+            value, mend = getattr(self, each.name), each.metadata.get("mend")
+            if mend and not (is_number(value) and value > 0):
+                raise TrainingError(f"{name}: {each.name}={shown(value)}; {mend}")
 
     @abstractmethod
     def penalty(self, z: Float[Array, "M k"]) -> Float[Array, "M k"]:
@@ -91,11 +91,9 @@ class ErrorLaw(ABC):
         Raises:
             TrainingError: for a level of something else.
         """
+        of = f"{type(self).__name__}: noise of"
         for name in self.noise:
-            if name not in targets:
-                raise TrainingError(
-                    f"{type(self).__name__}: noise of '{name}', which is not a target: {nearest(name, targets)}"
-                )
+            known_name(name, targets, of, TrainingError, ", which is not a target:")
         noise = tuple(float(self.noise[n]) if n in self.noise else None for n in targets)
         return LogLikelihood(replace(self, noise={}), noise)
 
@@ -134,12 +132,7 @@ class Huber(ErrorLaw):
         noise: levels by target, in its unit; those of other targets are estimated.
     """
 
-    delta: float = 1.345
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        super().__post_init__()
-        _need_positive("Huber", "delta", self.delta, "give a positive number of levels.")
+    delta: float = field(default=1.345, metadata={"mend": "give a positive number of levels."})
 
     def penalty(self, z: Float[Array, "M k"]) -> Float[Array, "M k"]:
         """``z²/2``, and ``δ|z| − δ²/2`` beyond δ."""
@@ -180,12 +173,7 @@ class Student(ErrorLaw):
             normal errors alone, 0.8 of their standard deviation with four degrees of freedom.
     """
 
-    nu: float = 4.0
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        super().__post_init__()
-        _need_positive("Student", "nu", self.nu, "give positive degrees of freedom.")
+    nu: float = field(default=4.0, metadata={"mend": "give positive degrees of freedom."})
 
     def penalty(self, z: Float[Array, "M k"]) -> Float[Array, "M k"]:
         """``(ν + 1)/2 log(1 + z²/ν)``."""
@@ -198,11 +186,6 @@ class Student(ErrorLaw):
     def balance(self, z: Float[Array, "M k"]) -> Float[Array, "M k"]:
         """``z² (ν + 1)/(ν + z²)``."""
         return self.weight(z) * z**2
-
-
-def _need_positive(law: str, name: str, value: Any, mend: str) -> None:
-    if not (is_number(value) and 0 < value < math.inf):
-        raise TrainingError(f"{law}: {name}={shown(value)}; {mend}")
 
 
 @dataclass(frozen=True)

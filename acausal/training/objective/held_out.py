@@ -13,7 +13,7 @@ import numpy as np
 
 from acausal._jax import is_number
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, listing, nearest, shown, user_level
+from acausal.errors import DataError, known_name, listing, shown, user_level
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.lay_out import lay_out, sample_time
 from acausal.training.objective.problem import Problem
@@ -50,8 +50,7 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
         return _shared(data, validation)
     if names := named_records(validation):
         for name in names:
-            if name not in data:
-                raise DataError(f"validation: there is no record '{name}': {nearest(name, data)}")
+            known_name(name, data, "validation: there is no record")
         training = {n: d for n, d in data.items() if n not in names}
         if not training:
             raise DataError(f"validation={listing(names)} leaves no record to train on.")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeGuard, cast
+from typing import TYPE_CHECKING, Any, Literal, TypeGuard, cast
 
 import equinox as eqx
 import jax
@@ -15,7 +15,7 @@ from jaxtyping import Array, Float, Int
 from acausal._jax import array, is_number, traced
 from acausal.codegen import Packed, Values
 from acausal.data import Data
-from acausal.errors import DataError, listing, nearest, shown
+from acausal.errors import DataError, known_name, listing, nearest, shown
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -29,18 +29,6 @@ InitialState = OfRecord | Mapping[str, OfRecord]
 
 KINDS = ("data", "model", "steady", "fit", "auto")
 GIVEN, MODEL, STEADY, FIT = range(4)
-
-
-class RecordStart(NamedTuple):
-    """Where a record starts.
-
-    Attributes:
-        kind: `GIVEN`, `MODEL`, `STEADY` or `FIT`.
-        state: what is known without parameters; NaN elsewhere.
-    """
-
-    kind: int
-    state: Float[np.ndarray, " n_states"]
 
 
 class FirstStates(eqx.Module):
@@ -120,9 +108,8 @@ def first_states(
         _start(system, d, of, trained=trained)
         for d, of in zip(data.values(), by_record(data, x0), strict=True)
     ]
-    kinds = tuple(sorted({s.kind for s in starts}))
-    kind, state = array([s.kind for s in starts], int), array([s.state for s in starts])
-    return FirstStates(kind, state, kinds)
+    kinds, states = zip(*starts, strict=True)
+    return FirstStates(array(kinds, int), array(states), tuple(sorted({*kinds})))
 
 
 def differs(records: Iterable[str], x0: InitialState) -> TypeGuard[Mapping[str, OfRecord]]:
@@ -147,8 +134,7 @@ def check_records(x0: InitialState, known: Iterable[str]) -> None:
     known = list(known)
     if differs(known, x0):
         for name in x0:
-            if name not in known:
-                raise DataError(f"x0: there is no record '{name}': {nearest(name, known)}")
+            known_name(name, known, "x0: there is no record")
 
 
 def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
@@ -165,14 +151,17 @@ def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
     return [own[n] for n in records]
 
 
-def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> RecordStart:
+def _start(
+    system: System, data: Data, x0: OfRecord, *, trained: bool
+) -> tuple[int, Float[np.ndarray, " n_states"]]:
+    """How a record starts, and what is known of its state without parameters; NaN elsewhere."""
     measured = np.array([data[n][0] if n in data.signals else np.nan for n in system.states], float)
     if isinstance(x0, str) and x0 not in ("data", "auto"):
         if x0 not in KINDS:
             raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, KINDS)}")
         if x0 == "fit" and not trained:
-            return RecordStart(MODEL, measured)
-        return RecordStart(KINDS.index(x0), np.full(len(system.states), np.nan))
+            return MODEL, measured
+        return KINDS.index(x0), np.full(len(system.states), np.nan)
     given = system.initializer.by_state({} if isinstance(x0, str) else x0)
     for name, value in given.items():
         if not is_number(value):
@@ -181,10 +170,10 @@ def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Record
     pairs = list(zip(system.states, state, strict=True))[: system.reduced.n_independent]
     unknown = [n for n, v in pairs if np.isnan(v)]
     if unknown and x0 != "data":
-        return RecordStart(MODEL, state)
+        return MODEL, state
     if unknown:
         raise DataError(
             f"The data lack {listing(unknown)}, with which the record starts: "
             f"leave out x0='data' to have them found, or give x0={{'{unknown[0]}': ...}}."
         )
-    return RecordStart(GIVEN, state)
+    return GIVEN, state

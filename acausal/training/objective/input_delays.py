@@ -9,6 +9,7 @@ there is held.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import equinox as eqx
 import jax
@@ -121,13 +122,7 @@ class DelayedInputs(eqx.Module):
         cuts = self._cuts(steps, record, times)
         bounds = jnp.concatenate([whole[0], cuts, whole[1]], axis=1)
         parts = Parts(cuts, self._over(steps, record, times, bounds[:, :-1], bounds[:, 1:]))
-        functions = samples.functions
-        return Steps(
-            steps.t,
-            steps.h,
-            Samples(inputs.start, inputs.end, functions, inputs.coefficients),
-            parts,
-        )
+        return replace(steps, inputs=replace(inputs, functions=samples.functions), parts=parts)
 
     def _cuts(
         self, steps: Steps, record: Int[Array, "*n"], times: Mapping[str, Float[Array, ""]]

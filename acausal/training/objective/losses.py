@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.data import noise_level
-from acausal.errors import TrainingError, nearest
+from acausal.errors import TrainingError, known_name
 from acausal.training.objective.error_laws import LAWS, ErrorLaw
 from acausal.training.objective.records import Records
 
@@ -116,9 +116,7 @@ def named(loss: str | Loss | ErrorLaw, targets: Sequence[str]) -> Loss:
         return loss if _takes_weights(loss) else WithoutWeights(loss)
     if loss in LAWS:
         return LAWS[loss]().of(targets)
-    if loss not in LOSSES:
-        raise TrainingError(f"No loss '{loss}': {nearest(loss, (*LOSSES, *LAWS))}")
-    return LOSSES[loss]
+    return LOSSES[known_name(loss, (*LOSSES, *LAWS), "No loss", TrainingError)]
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal._jax import is_number
-from acausal.errors import TrainingError, nearest, shown
+from acausal.errors import TrainingError, known_name, shown
 
 
 class ParameterSpread(eqx.Module):
@@ -73,10 +73,7 @@ def parameter_spread(
     chosen = {str(name): deviation for name, deviation in (given or {}).items()}
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
     for name, deviation in chosen.items():
-        if name not in numbers:
-            raise TrainingError(
-                f"parameter_spread: no parameter '{name}': {nearest(name, numbers)}"
-            )
+        known_name(name, numbers, "parameter_spread: no parameter", TrainingError)
         if np.ndim(params[name]) or not (is_number(deviation) and deviation > 0):
             raise TrainingError(
                 f"The spread of '{name}' is {shown(deviation)}; give a positive deviation of a number."

@@ -13,7 +13,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from acausal.errors import TrainingError, nearest
+from acausal.errors import TrainingError, known_name
 from acausal.networks import law_at
 
 if TYPE_CHECKING:
@@ -103,8 +103,5 @@ def prior_of(earlier: Earlier | None, params: Mapping[str, Any]) -> Prior | None
         return None
     found = earlier.confidence().prior
     for name in (*found.laws, *found.names):
-        if name not in params:
-            raise TrainingError(
-                f"prior: it knows '{name}', which the model has not: {nearest(name, params)}"
-            )
+        known_name(name, params, "prior: it knows", TrainingError, ", which the model has not:")
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import equinox as eqx
@@ -20,7 +21,7 @@ from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.parameter_spread import ParameterSpread
 from acausal.training.objective.prior import Prior
-from acausal.training.objective.records import Places, Window
+from acausal.training.objective.records import Places
 from acausal.training.objective.regularizers import Context, Regularizer
 from acausal.training.objective.sequences import Batch, Sequences
 from acausal.training.objective.sharding import shard
@@ -196,93 +197,59 @@ class Problem(Simulator):
     def draw(self, key: PRNGKeyArray, update: int | Int[Array, ""] = 0) -> Batch:
         """A random batch of sequences, see `Sequences.draw`."""
         batch = self.sequences.draw(key, update)
-        return batch.nudged(jnp.zeros((len(batch.start), len(self.system.states))))
+        return replace(batch, nudge=jnp.zeros((len(batch.start), len(self.system.states))))
 
     def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " batch"]:
         """The loss of every sequence of a batch."""
         arrays, rest = eqx.partition(self, eqx.is_array)
 
-        def share(same: tuple[Problem, Trainable], rows: Any) -> Float[Array, " share"]:
+        def share(same: tuple[Problem, Trainable], batch: Batch) -> Float[Array, " share"]:
             arrays, trainable = same
-            return eqx.combine(arrays, rest)._losses(trainable, *rows)
+            own: Problem = eqx.combine(arrays, rest)
+            loss = partial(own._losses, trainable, batch)
+            return own.parameter_spread.mean(loss, own.assemble(trainable))
 
-        rows = (batch.start, batch.points, batch.nudge, batch.read)
-        return shard(share, self.mesh, (arrays, trainable), rows)
+        return shard(share, self.mesh, (arrays, trainable), batch)
 
     def _losses(
-        self,
-        trainable: Trainable,
-        starts: Int[Array, " batch"],
-        points: Int[Array, "batch n_points"] | None,
-        nudges: Float[Array, "batch n_states"] | None,
-        read: Window | None,
-    ) -> Float[Array, " batch"]:
-        params = self.assemble(trainable)
-        return self.parameter_spread.mean(
-            lambda p: self._losses_with(p, trainable, starts, points, nudges, read), params
-        )
-
-    def _losses_with(
-        self,
-        params: dict[str, Any],
-        trainable: Trainable,
-        starts: Int[Array, " batch"],
-        points: Int[Array, "batch n_points"] | None,
-        nudges: Float[Array, "batch n_states"] | None,
-        read: Window | None,
+        self, trainable: Trainable, batch: Batch, params: dict[str, Any]
     ) -> Float[Array, " batch"]:
         packed = self.pack(params, trainable)
         if self.sequences.whole:
-            first = jax.tree.map(lambda a: a[0], (points, nudges))
-            return self._loss_of_all(packed, trainable, *first)[None]
+            return self._loss_of_all(packed, trainable, jax.tree.map(_first, batch))[None]
         records, shooting, sensors = self.records, self.shooting, self.sensors
         parts = None if shooting is None else self.part_states(trainable, packed)
 
-        def one(
-            start: Int[Array, ""],
-            points: Int[Array, " n_points"] | None,
-            nudge: Float[Array, " n_states"] | None,
-            read: Window | None,
-        ) -> Float[Array, ""]:
+        def one(row: Batch) -> Float[Array, ""]:
+            start, read = row.start, row.read
             window = records.window(start, self.sequences.length) if read is None else read
             if shooting is None or parts is None:
                 assert window.x is not None
                 x0 = window.x
             else:
                 x0 = parts[shooting.part(start)]
-            x0 = x0 if nudge is None else x0 + nudge
+            x0 = x0 if row.nudge is None else x0 + row.nudge
             own = self.packed_of(packed, window.of)
             steps = records.delayed(window.steps, window.of, packed.times)
             found = self.integrate_from(own, x0, steps)
             assert found.y is not None
             seen, weight = sensors.over_window(found.y, window, records, start, packed.times)
-            compared = seen, window.y, weight
-            if points is not None:
-                compared = jax.tree.map(lambda a: a[points], compared)
-            loss = self.compare_some(*compared)
+            loss = self.compare_some(*row.compared(seen, window.y, weight))
             if shooting is None or parts is None:
                 return loss
             return loss + shooting.gap(parts, shooting.part(start), found.end)
 
-        if starts.shape[0] == 1:
-            first = jax.tree.map(lambda a: a[0], (starts, points, nudges, read))
-            return one(*first)[None]
-        return jax.vmap(one)(starts, points, nudges, read)
+        if len(batch.start) == 1:
+            return one(jax.tree.map(_first, batch))[None]
+        return jax.vmap(one)(batch)
 
     def _loss_of_all(
-        self,
-        packed: PackedRecords,
-        trainable: Trainable,
-        points: Int[Array, " n_points"] | None,
-        nudge: Float[Array, " n_states"] | None,
+        self, packed: PackedRecords, trainable: Trainable, row: Batch
     ) -> Float[Array, ""]:
         records = self.records
-        found = self.integrate_all(packed, trainable, nudge)
+        found = self.integrate_all(packed, trainable, row.nudge)
         assert found.y is not None
-        compared = found.y, records.y, records.weight
-        if points is not None:
-            compared = jax.tree.map(lambda a: a[points], compared)
-        return self.compare_some(*compared)
+        return self.compare_some(*row.compared(found.y, records.y, records.weight))
 
     def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""
@@ -306,11 +273,9 @@ class Problem(Simulator):
         total = self.parameter_spread.mean(loss, params)
         return Simulated(total, found.x, found.y, found.log)
 
-    def _all(
-        self, params: dict[str, Any], trainable: Trainable, *, direct: bool = False
-    ) -> Simulated:
+    def _all(self, params: dict[str, Any], trainable: Trainable) -> Simulated:
         """States and targets at every row, without a loss yet."""
-        found = self.integrate_all(self.pack(params, trainable), trainable, direct=direct)
+        found = self.integrate_all(self.pack(params, trainable), trainable)
         assert found.y is not None
         return Simulated(jnp.zeros(()), found.x, found.y, found.log)
 
@@ -355,9 +320,13 @@ class Problem(Simulator):
             trainable: gives what differs between records.
             params: physical values and networks.
         """
-        return self._all(params, trainable, direct=True).y
+        return replace(self, direct=True)._all(params, trainable).y
 
     def predictions(self, trainable: Trainable) -> Float[Array, "n_models N n_targets"]:
         """The same of every model of the parameter spread."""
         params = self.assemble(trainable)
         return self.parameter_spread.over_models(lambda p: self.predict(trainable, p), params)
+
+
+def _first(rows: Array) -> Array:
+    return rows[0]

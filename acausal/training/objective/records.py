@@ -124,14 +124,6 @@ class Records(eqx.Module):
         """Whether a record begins at a row."""
         return jnp.zeros(len(self), bool).at[self.first].set(True)
 
-    def spread_at_starts(self, x0: Float[Array, "R n_states"]) -> Float[Array, "N n_states"]:
-        """Rows with a state for each record at its first row, zero elsewhere."""
-        return jnp.zeros((len(self), x0.shape[1]), x0.dtype).at[self.first].set(x0)
-
-    def unweighted(self) -> Records:
-        """The same where all measured samples count alike."""
-        return replace(self, weight=jnp.where(self.weight > 0, 1.0, 0.0))
-
     def window(self, start: Int[Array | np.ndarray, "*n"], length: int) -> Window:
         """The ``length`` rows from ``start`` on; beyond the record's end its last row is repeated, with no weight.
 
@@ -160,24 +152,11 @@ class Records(eqx.Module):
         counts = np.minimum(last - first + 1, rows)
         chosen = np.concatenate([a + np.arange(n) for a, n in zip(first, counts, strict=True)])
 
-        def cut(a: Array) -> Array:
-            return a[chosen] if a.ndim else a
-
-        rest = (self.steps, self.y, self.weight, self.x, self.of, self.sampled)
-        steps, y, weight, x, of, sampled = jax.tree.map(cut, rest)
+        rows_each = ("steps", "y", "weight", "x", "of", "sampled")
+        parts = {name: getattr(self, name) for name in rows_each}
+        parts = jax.tree.map(lambda a: a[chosen] if a.ndim else a, parts)
         ends = jnp.asarray(np.cumsum(counts) - 1)
-        starts = ends - counts + 1
-        return replace(
-            self,
-            steps=steps,
-            y=y,
-            weight=weight,
-            x=x,
-            of=of,
-            sampled=sampled,
-            first=starts,
-            last=ends,
-        )
+        return replace(self, **parts, first=ends - counts + 1, last=ends)
 
     def rows_of(self, record: int) -> Int[np.ndarray, " n"]:
         """The rows of a record that hold samples."""

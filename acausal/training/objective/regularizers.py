@@ -19,7 +19,7 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import is_real, traced
-from acausal.errors import TrainingError, nearest, shown
+from acausal.errors import TrainingError, known_name, shown
 from acausal.modeling import by_name, names_in
 from acausal.networks import inputs_of, law_of, output_scale
 
@@ -173,8 +173,7 @@ def named(kind: str, chosen: tuple[str, ...] | None, known: tuple[str, ...]) -> 
         TrainingError: for another name.
     """
     for name in chosen or ():
-        if name not in known:
-            raise TrainingError(f"A regularizer names the {kind} '{name}': {nearest(name, known)}")
+        known_name(name, known, f"A regularizer names the {kind}", TrainingError)
     return known if chosen is None else chosen
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import equinox as eqx
 import jax
@@ -42,22 +42,22 @@ class Batch(eqx.Module):
     nudge: Float[Array, "batch n_states"] | None = None
     read: Window | None = None
 
-    def nudged(self, nudge: Float[Array, "batch n_states"] | None) -> Batch:
-        """The batch with other starts."""
-        return replace(self, nudge=nudge)
-
     def without(self, bad: Bool[Array, " batch"]) -> Batch:
         """The batch with some sequences (a mask) replaced by a good one with weight zero.
 
         The gradients of diverged sequences would be undefined even if multiplied by a weight of zero.
         """
         good = jnp.argmin(bad)
-        replaced = jax.tree.map(lambda a: jnp.where(_column(bad, a), a[good], a), self)
-        return eqx.tree_at(lambda b: b.weight, replaced, jnp.where(bad, 0.0, self.weight))
 
+        def replaced(a: Array) -> Array:
+            return jnp.where(bad.reshape(bad.shape + (1,) * (a.ndim - 1)), a[good], a)
 
-def _column(mask: Bool[Array, " batch"], like: Array) -> Array:
-    return mask.reshape(mask.shape + (1,) * (like.ndim - 1))
+        healthy = jax.tree.map(replaced, self)
+        return eqx.tree_at(lambda b: b.weight, healthy, jnp.where(bad, 0.0, self.weight))
+
+    def compared(self, *columns: Float[Array, "length ..."]) -> tuple[Array, ...]:
+        """Of one of the sequences, the rows of some columns that count."""
+        return columns if self.points is None else tuple(a[self.points] for a in columns)
 
 
 class ReadSequences(eqx.Module):
@@ -184,7 +184,6 @@ def whole_records(records: Records, points: int | None = None) -> Sequences:
 
 def cut(
     records: Records,
-    weights: Float[np.ndarray, " R"],
     seconds: float | Literal["auto"] | None,
     batch_size: int | None,
     fraction: float | None,
@@ -196,7 +195,6 @@ def cut(
 
     Arguments:
         records: the records.
-        weights: of the records.
         seconds: length of a sequence; ``None`` takes all of every record, and so does ``"auto"`` where sequences of
             `SAMPLES` could not begin at measured states, or would be longer than half of a record.
         batch_size: sequences in a batch; ``None`` for 1, or `SEQUENCES` of that length.
@@ -227,10 +225,9 @@ def cut(
         batch_size = min(batch_size, len(starts))
     else:
         starts = _startable(records, n, lacking)
-    weight = weights[np.asarray(records.of)[starts]]
     return Sequences(
         jnp.asarray(starts),
-        jnp.asarray(weight),
+        jnp.ones(len(starts)),
         n,
         batch_size=batch_size,
         points=some(fraction, n),
@@ -239,22 +236,14 @@ def cut(
     )
 
 
-class BatchSizes(NamedTuple):
-    """Of batches: seconds and rows in a sequence, ``None`` and the longest record's for whole records; sequences."""
-
-    seconds: float | None
-    rows: int
-    batch_size: int
-
-
 def batch_sizes(
     rows: Int[np.ndarray, " R"],
     spans: Float[np.ndarray, " R"],
     startable: bool,
     seconds: float | Literal["auto"] | None,
     batch_size: int | None,
-) -> BatchSizes:
-    """The sizes of batches.
+) -> tuple[float | None, int, int]:
+    """Of batches: seconds and rows in a sequence, ``None`` and the longest record's for whole records; sequences.
 
     Arguments:
         rows: of every record; ``spans``: from its first to its last time.
@@ -265,10 +254,8 @@ def batch_sizes(
         fits = startable and rows.max() >= 2 * SAMPLES
         if batch_size is None:
             batch_size = SEQUENCES if fits else 1
-        return BatchSizes(*((np.inf, SAMPLES) if fits else (None, int(rows.max()))), batch_size)
-    return BatchSizes(
-        seconds, _length(rows, spans, seconds), 1 if batch_size is None else batch_size
-    )
+        return (np.inf, SAMPLES, batch_size) if fits else (None, int(rows.max()), batch_size)
+    return seconds, _length(rows, spans, seconds), 1 if batch_size is None else batch_size
 
 
 def _length(rows: np.ndarray, spans: np.ndarray, seconds: float | None) -> int:

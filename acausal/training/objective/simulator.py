@@ -65,6 +65,7 @@ class Simulator(eqx.Module):
         dtype: the precision of steps; of weights and losses it is double.
         tries: steps and searches for events that a row may take on average before a simulation counts as diverged;
             ``None``: as many as it takes.
+        direct: whether derivatives in forward mode must work, too.
     """
 
     system: System = eqx.field(static=True)
@@ -79,6 +80,7 @@ class Simulator(eqx.Module):
     substeps: int = eqx.field(static=True)
     dtype: np.dtype = eqx.field(static=True)
     tries: int | None = eqx.field(static=True, default=None, kw_only=True)
+    direct: bool = eqx.field(static=True, default=False, kw_only=True)
 
     @property
     def longest_step(self) -> float:
@@ -142,8 +144,6 @@ class Simulator(eqx.Module):
         packed: PackedRecords,
         trainable: Trainable,
         nudge: Float[Array, " n_states"] | None = None,
-        *,
-        direct: bool = False,
     ) -> Integrated:
         """States and targets at every row of all records, in one loop."""
         records = self.records
@@ -152,15 +152,15 @@ class Simulator(eqx.Module):
         own, steps = packed.own, self.steps(packed)
         if records.count == 1:
             one = self.packed_of(packed, jnp.asarray(0))
-            return self._measured(self.integrate_from(one, x0[0], steps, direct=direct), packed)
+            return self._measured(self.integrate_from(one, x0[0], steps), packed)
+        first = jnp.zeros((len(records), x0.shape[1]), x0.dtype).at[records.first].set(x0)
         runs = Runs(
-            Restarts(records.begins, records.spread_at_starts(x0)),
+            Restarts(records.begins, first),
             None if own is None else own[records.of],
             self.per_record.places,
             records.count,
         )
-        found = self.integrate_from(packed.common, x0[0], steps, runs=runs, direct=direct)
-        return self._measured(found, packed)
+        return self._measured(self.integrate_from(packed.common, x0[0], steps, runs), packed)
 
     def _measured(self, found: Integrated, packed: PackedRecords) -> Integrated:
         """The same with targets as their sensors show them."""
@@ -172,9 +172,7 @@ class Simulator(eqx.Module):
         packed: Packed,
         x0: Float[Array, " n_states"],
         steps: Steps,
-        *,
         runs: Runs | None = None,
-        direct: bool = False,
     ) -> Integrated:
         """States and targets at every step, and the state at the end."""
         packed, x0, steps, runs = cast((packed, x0, steps, runs), self.dtype)
@@ -189,7 +187,7 @@ class Simulator(eqx.Module):
             self.solver,
             substeps=self.substeps,
             outputs=self.targets,
-            direct=direct,
+            direct=self.direct,
             runs=runs,
         )
         return cast(found, float)

@@ -68,8 +68,11 @@ def smoothed(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
     A cubic polynomial is fitted to the samples around each one (A. Savitzky, M. Golay, 1964). The window is the one
     that predicts samples best from their neighbours (generalized cross-validation: P. Craven, G. Wahba, 1979).
     """
-    if np.isnan(signal).any():
-        return _in_pieces(signal)
+    if np.isnan(signal).any():  # from gap to gap
+        pieces = signal.copy()
+        for start, end in _runs(~np.isnan(signal)):
+            pieces[start:end] = smoothed(signal[start:end])
+        return pieces
     best, kept = signal, np.inf
     own = np.std(np.diff(signal, DEGREE + 1)) if len(signal) > DEGREE + 1 else 0.0
     if own == 0.0:
@@ -83,11 +86,3 @@ def smoothed(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
         if score < kept:
             best, kept = found, score
     return best
-
-
-def _in_pieces(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
-    """A signal with gaps, smoothed from gap to gap."""
-    found = signal.copy()
-    for start, end in _runs(~np.isnan(signal)):
-        found[start:end] = smoothed(signal[start:end])
-    return found

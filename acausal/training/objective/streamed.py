@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -58,11 +58,6 @@ class Streamed:
     samples: int
 
     @property
-    def spans(self) -> Float[np.ndarray, " R"]:
-        """From the first to the last sample of each record, in seconds."""
-        return self.ends[:, 1] - self.ends[:, 0]
-
-    @property
     def first(self) -> Int[np.ndarray, " R"]:
         """The first row of each record, among those of all."""
         return np.cumsum(self.rows) - self.rows
@@ -96,9 +91,8 @@ class Streamed:
         lacking: Sequence[str],
     ) -> Sequences:
         """How sequences are drawn; arguments and errors as of `acausal.training.objective.sequences.cut`."""
-        seconds, n, batch_size = batch_sizes(
-            self.rows, self.spans, not lacking, seconds, batch_size
-        )
+        spans = self.ends[:, 1] - self.ends[:, 0]
+        seconds, n, batch_size = batch_sizes(self.rows, spans, not lacking, seconds, batch_size)
         if seconds is None:
             raise DataError(
                 "The records of a stream are trained in sequences: give their sequence_length= in seconds."
@@ -171,7 +165,11 @@ def survey(
     most = max(2, SAMPLES_IN_MEMORY // max(1, len(stream)))
     beginnings: dict[str, Data] = {}
     moments, known, times, uneven = Moments(len(targets)), [], [], False
-    for name, record in _each(system, stream):
+    for name in stream:
+        try:
+            record = stream[name].for_system(system)
+        except DataError as error:
+            raise DataError(f"'{name}': {error}") from None
         if len(record) < 2:
             raise DataError(f"The record '{name}' has fewer than two samples.")
         check_resolution(record.time, precision(dtype), f"The record '{name}'")
@@ -193,15 +191,6 @@ def survey(
         moments.deviation,
         int(moments.count.sum()),
     )
-
-
-def _each(system: System, stream: Stream) -> Iterator[tuple[str, Data]]:
-    for name in stream:
-        try:
-            record = stream[name].for_system(system)
-        except DataError as error:
-            raise DataError(f"'{name}': {error}") from None
-        yield name, record
 
 
 def _known(record: Data, states: Sequence[str]) -> Int[np.ndarray, " bytes"] | None:

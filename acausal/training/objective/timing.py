@@ -18,7 +18,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import is_number
 from acausal.data import Data
-from acausal.errors import TrainingError, nearest, need_flag, shown
+from acausal.errors import TrainingError, known_name, need_flag, shown
 from acausal.training.objective.modifiers import Bounded, Modifier, Modifiers
 
 SAMPLES = 20
@@ -139,9 +139,8 @@ def timing(
         ("lags", slow, targets),
     ):
         for name in chosen:
-            if name not in known:
-                kinds = "input or target" if what == "delays" else "target"
-                raise TrainingError(f"{what}: there is no {kinds} '{name}': {nearest(name, known)}")
+            kinds = "input or target" if what == "delays" else "target"
+            known_name(name, known, f"{what}: there is no {kinds}", TrainingError)
     named = {delay_of(n): _time("delay", n, value, limit) for n, value in late.items()}
     named |= {lag_of(n): _time("lag", n, value, limit) for n, value in slow.items()}
     starts = {n: jnp.asarray(value, float) for n, (value, _) in named.items()}

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal._jax import is_number
-from acausal.errors import TrainingError, nearest, shown
+from acausal.errors import TrainingError, known_name, shown
 from acausal.training.objective.losses import Loss, WithoutWeights
 from acausal.training.objective.records import Records
 
@@ -92,20 +92,14 @@ def weighting(
         )
     if isinstance(record_weights, Mapping):
         for name, value in record_weights.items():
-            if name not in names:
-                raise TrainingError(
-                    f"record_weights: there is no record '{name}': {nearest(name, names)}"
-                )
+            known_name(name, names, "record_weights: there is no record", TrainingError)
             if not (is_number(value) and value > 0):
                 raise TrainingError(
                     f"record_weights: '{name}' has the weight {shown(value)}; give a positive number, or leave "
                     "the record out."
                 )
     for name, value in (sample_weights or {}).items():
-        if name not in targets:
-            raise TrainingError(
-                f"sample_weights: '{name}' is not a target: {nearest(name, targets)}"
-            )
+        known_name(name, targets, "sample_weights:", TrainingError, " is not a target:")
         if not (callable(value) or (is_number(value) and value > 0)):
             raise TrainingError(
                 f"sample_weights: '{name}' has the weight {shown(value)}; give a positive number, or a function "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 import equinox as eqx
@@ -94,7 +95,7 @@ def total(
 def with_gradient(objective: Objective, trainable: PyTree, batch: PyTree) -> LossDerivatives:
     """The gradient alone, in reverse mode."""
     evaluate = jax.value_and_grad(
-        lambda moved: total(objective, moved[0], batch.nudged(moved[1])), has_aux=True
+        lambda moved: total(objective, moved[0], replace(batch, nudge=moved[1])), has_aux=True
     )
     (value, (losses, penalties)), found = evaluate((trainable, batch.nudge))
     gradient, by_start = found

@@ -10,10 +10,10 @@ here; of 3000 weights its part of an update takes 6 times as long as ours.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax import lax
@@ -134,26 +134,21 @@ def _accept(
     def append(rows: Array, row: Array) -> Array:
         return jnp.where(keep, jnp.concatenate([rows[1:], row[None]]), rows)
 
-    return eqx.tree_at(
-        lambda s: (s.point, s.value, s.gradient, s.moves, s.changes, s.count, s.converged),
+    return replace(
         state,
-        (
-            point,
-            value,
-            gradient,
-            append(state.moves, move),
-            append(state.changes, change),
-            jnp.where(keep, jnp.minimum(state.count + 1, len(state.moves)), state.count),
-            stalled,
-        ),
+        point=point,
+        value=value,
+        gradient=gradient,
+        moves=append(state.moves, move),
+        changes=append(state.changes, change),
+        count=jnp.where(keep, jnp.minimum(state.count + 1, len(state.moves)), state.count),
+        converged=stalled,
     )
 
 
 def _restart(state: Search) -> Search:
     """The same point without the differences before it; where there were none, the search has converged."""
-    return eqx.tree_at(
-        lambda s: (s.count, s.converged), state, (jnp.zeros_like(state.count), state.count == 0)
-    )
+    return replace(state, count=jnp.zeros_like(state.count), converged=state.count == 0)
 
 
 def _next_trial(
@@ -178,7 +173,7 @@ def _next_trial(
     very_first = (state.count == 0) & (state.low == 0)
     longer = jnp.where(very_first, jnp.clip(secant, 2 * low, STRETCH * low), 2 * low)
     step = jnp.where(jnp.isfinite(high), inside, longer)
-    return eqx.tree_at(lambda s: (s.step, s.low, s.high, s.trials), state, (step, low, high, tried))
+    return replace(state, step=step, low=low, high=high, trials=tried)
 
 
 def _new_line(state: Search) -> Search:
@@ -190,17 +185,14 @@ def _new_line(state: Search) -> Search:
     share = jnp.where(state.value > 0, SHARE * state.value / length, jnp.inf)
     step = jnp.where(scaled, 1.0, jnp.minimum(FIRST, share) / length)
     zero = jnp.zeros_like(step)
-    return eqx.tree_at(
-        lambda s: (s.direction, s.derivative, s.step, s.low, s.high, s.trials),
+    return replace(
         state,
-        (
-            direction,
-            derivative,
-            step,
-            zero,
-            jnp.full_like(step, jnp.inf),
-            jnp.zeros_like(state.trials),
-        ),
+        direction=direction,
+        derivative=derivative,
+        step=step,
+        low=zero,
+        high=jnp.full_like(step, jnp.inf),
+        trials=jnp.zeros_like(state.trials),
     )
 
 

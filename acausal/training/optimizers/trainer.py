@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -18,7 +18,7 @@ import optax
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 
-from acausal._jax import Descent, compiled
+from acausal._jax import Descent, compiled, either
 from acausal.training.optimizers.gradients import (
     Evaluate,
     LossDerivatives,
@@ -29,8 +29,6 @@ from acausal.training.optimizers.gradients import (
 
 UPDATES_PER_CALL = 128
 """The most updates in one call of the compiled program."""
-
-Tree = TypeVar("Tree")
 
 
 class State(eqx.Module):
@@ -199,7 +197,7 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
     derivatives = found.gradient, found.hessian
     usable = _finite((found.total, derivatives)) & ~_diverged(found, trainer).any()
     zeros = jax.tree.map(jnp.zeros_like, derivatives)
-    gradient, hessian = _select(usable, derivatives, zeros)
+    gradient, hessian = either(usable, derivatives, zeros)
     value = jnp.where(usable, found.total, jnp.inf)
     steps, optimizer = trainer.optimizer.update(
         gradient,
@@ -213,7 +211,7 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
     moved = optax.apply_updates(state.trainable, steps)
     turned_down = _turned_down(optimizer, value)
     accepted = _finite(moved) & (usable | turned_down)
-    trainable, optimizer = _select(accepted, (moved, optimizer), (state.trainable, state.optimizer))
+    trainable, optimizer = either(accepted, (moved, optimizer), (state.trainable, state.optimizer))
     rejected = jnp.where(accepted, 0, state.rejected + 1)
     entry = UpdateLog(
         jnp.average(found.losses, weights=batch.weight),
@@ -256,9 +254,7 @@ def evaluate_healthy(
         carry: tuple[PyTree, LossDerivatives, Array, Array, Array],
     ) -> tuple[PyTree, LossDerivatives, Array, Array, Array]:
         batch, _, bad, exploded, count = carry
-        batch = jax.tree.map(
-            lambda new, old: jnp.where(bad.any(), new, old), batch.without(bad), batch
-        )
+        batch = either(bad.any(), batch.without(bad), batch)
         found = evaluate(batch)
         bad = jnp.where(count == 0, _diverged(found, trainer), bad)
         exploded = jnp.where(count == 0, _exploded(found, trainer), exploded)
@@ -293,7 +289,3 @@ def _exploded(found: LossDerivatives, trainer: Trainer) -> Int[Array, ""]:
 
 def _finite(tree: PyTree) -> Bool[Array, ""]:
     return jnp.stack([jnp.isfinite(leaf).all() for leaf in jax.tree.leaves(tree)]).all()
-
-
-def _select(condition: Bool[Array, ""], new: Tree, old: Tree) -> Tree:
-    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), new, old)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import acausal.export as export
-from acausal.errors import DataError, nearest, shown, user_level
+from acausal.errors import DataError, known_name, shown, user_level
 from acausal.files import file_to_write, need_path, write_files
 from acausal.modeling import by_name
 from acausal.training.presentation.model_card import facts, markdown
@@ -44,10 +44,7 @@ def export_with_card(
         DataError: for an unknown ending, what is no path of a file, or as the function for this form does.
     """
     target = need_path(path, "fit.export")
-    if target.suffix not in FORMS:
-        raise DataError(
-            f"fit.export: there is no form '{target.suffix}'; {nearest(target.suffix, FORMS)}"
-        )
+    known_name(target.suffix, FORMS, "fit.export: there is no form", then=";")
     cards = [target.with_name(target.name + ending) for ending in (".md", ".json")]
     for card in (target, *cards):
         file_to_write(card, "fit.export", need_folder=False)
@@ -64,19 +61,13 @@ def export_with_card(
         )
     further = by_name(notes, "fit.export: notes", "lines by title")
     function = FORMS[target.suffix]
-    files = _write(fit, target, function, dict(options))
+    own = {**({"ranges": fit.ranges} if function in WITH_RANGES else {}), **options}
+    write: Any = getattr(export, function)
+    if function == "c":
+        own = {"name": target.stem, **own}
+        files = write(fit.system, target.parent, fit.params, **own)[::-1]
+    else:
+        files = (write(fit.system, target, fit.params, **own),)
     found = facts(fit, files, function, {**options}, confidence, further)
     write_files({cards[0]: markdown(found), cards[1]: json.dumps(found, indent=2) + "\n"})
     return target
-
-
-def _write(
-    fit: TrainedModel, path: Path, function: str, options: dict[str, Any]
-) -> tuple[Path, ...]:
-    """The files that were written, the one of the path first."""
-    if function in WITH_RANGES:
-        options = {"ranges": fit.ranges, **options}
-    write: Any = getattr(export, function)
-    if function == "c":
-        return write(fit.system, path.parent, fit.params, **{"name": path.stem, **options})[::-1]
-    return (write(fit.system, path, fit.params, **options),)

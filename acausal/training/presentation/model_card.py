@@ -44,13 +44,14 @@ def facts(
         confidence: of the fit, if it was asked for. notes: of the user.
     """
     system = fit.system
+    flags = {"fmu": "outside_training_range", "c": f"{files[0].stem}_outside"}
     return _finite(
         {
             "model": type(system.model).__name__,
             "written": datetime.now(UTC).strftime("%Y-%m-%d"),
             "files": [_file(path) for path in files],
             "export": {"function": f"acausal.export.{function}", "options": {n: shown(v) for n, v in options.items()}},
-            "flag": _flag(files[0], function) if fit.ranges and options.get("ranges", True) else None,
+            "flag": flags.get(function) if fit.ranges and options.get("ranges", True) else None,
             "states": {n: system.unit(n) for n in system.states},
             "inputs": {n: system.unit(n) for n in system.inputs},
             "notes": {n: _plain(v) for n, v in notes.items()},
@@ -86,11 +87,6 @@ def _plain(value: object) -> object:
     """A number or a text as it is; anything else as Python writes it."""
     number = value.item() if isinstance(value, np.generic) else value
     return number if isinstance(number, float | int | str) else shown(number)
-
-
-def _flag(path: Path, function: str) -> str | None:
-    """What tells in this form that a network leaves its range."""
-    return {"fmu": "outside_training_range", "c": f"{path.stem}_outside"}.get(function)
 
 
 def _file(path: Path) -> dict[str, Any]:

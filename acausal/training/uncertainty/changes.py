@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 from acausal.networks import law_at, output_scale
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
-from acausal.training.uncertainty.bumps import Bumped, Network, bumped_law, split, with_changes
+from acausal.training.uncertainty.bumps import Bumped, Network, bumped_law, with_changes
 from acausal.training.uncertainty.tangents import Move, law_directions
 
 LEVELS = np.linspace(0.0, 1.0, 41)
@@ -87,10 +87,6 @@ class Changes:
         }
         new = with_changes(self.problem, self.params, laws, moves[self.common])
         return _moved(self.problem, self.trainable, moves[self.own]), new
-
-    def by_law(self, rows: Float[np.ndarray, " n_common"]) -> dict[str, Float[np.ndarray, " n"]]:
-        """What belongs to the bumps of each law."""
-        return split(self.bumped, rows)[0]
 
 
 def changes(

@@ -8,8 +8,8 @@ from itertools import starmap
 import numpy as np
 from jaxtyping import Bool, Float
 
+from acausal.reporting import Curve, Html, View, small_plot
 from acausal.training.objective.prior import Prior
-from acausal.training.uncertainty.confidence_view import confidence_view
 
 BAND_POINTS = 201
 """Points of a band over the argument of a law."""
@@ -25,6 +25,9 @@ CORRELATED = 2.0
 
 BAD = 0.05
 """Residuals are bad if they leave more than this part of a target unexplained beside noise."""
+
+SIZE = (420, 150)
+"""Of a band in a row of a view, in pixels."""
 
 MOVED = 1.0
 """So many standard deviations are too much to move by the error of the integration's steps."""
@@ -110,7 +113,25 @@ class Confidence:
     prior: Prior
 
     def _repr_html_(self) -> str:
-        return confidence_view(self.parameters, self.laws, self.noise, self.alike, self.summary())
+        view = View("Confidence", "How well the records determine what was trained.")
+        if self.parameters:
+            deviations = list(self.parameters.items())
+            view.table(("parameter", "standard deviation of its change"), deviations)
+        if self.laws:
+            drawn = {
+                n: small_plot([Curve("", band.x, band.law, bounds=band.bounds)], size=SIZE)
+                for n, band in self.laws.items()
+            }
+            rows = [(n, Html(plot), float(np.max(self.laws[n].sigma))) for n, plot in drawn.items()]
+            view.table(
+                ("law", "over its argument, two standard deviations to either side", "largest one"),
+                rows,
+            )
+        rows = [(n, level, self.alike.get(n, 1.0)) for n, level in self.noise.items()]
+        view.table(("target", "noise", "samples that count as one"), rows)
+        for sentence in self.summary():
+            view.text(sentence)
+        return str(view)
 
     def summary(self) -> list[str]:
         """What all this means, as a list of sentences."""
@@ -123,7 +144,7 @@ class Confidence:
             if abs(self.correlation[i, j]) > INDISTINGUISHABLE
         ]
         taken = [
-            f"The data can hardly tell '{name}' from the law '{law}' (correlation {_digits(value)}), which can "
+            f"The data can hardly tell '{name}' from the law '{law}' (correlation {min(value, 0.9999):.4f}), which can "
             "take any part of it: only the two together are known well; fix one, or measure more."
             for name, laws in self.with_laws.items()
             for law, value in laws.items()
@@ -165,8 +186,3 @@ def _law_known(name: str, band: Band) -> str:
         f"'{name}' is known to {np.median(doubt):.2g} % of its range, at worst to {doubt[worst]:.2g} % near "
         f"{band.x[worst]:.2g} (two sigma)."
     )
-
-
-def _digits(correlation: float) -> str:
-    """A correlation near 1 that does not read as 1 itself."""
-    return f"{min(correlation, 0.9999):.4f}"

@@ -22,17 +22,21 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import compiled, value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import bounds_of, kept_promises, law_at
+from acausal.simulation import Adaptive
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.prior import LawPrior, Prior
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
-from acausal.training.uncertainty.bumps import bumps_at
+from acausal.training.uncertainty.bumps import bumps_at, split
 from acausal.training.uncertainty.changes import Changes, changes
 from acausal.training.uncertainty.confidence import BAND_POINTS, TAKEN, Band, Confidence
-from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
+from acausal.training.uncertainty.record_elimination import (
+    RecordJacobian,
+    move,
+    posterior_covariance,
+)
 from acausal.training.uncertainty.residuals import correlation_time, unexplained
-from acausal.training.uncertainty.step_error import move, step_error
 from acausal.training.uncertainty.tangents import correlation_with
 
 UNKNOWN = 0.9
@@ -77,10 +81,11 @@ def confidence(
         for part in np.split(effects, ends)
     ]
     onward = change.deviations * move(blocks, noise.relative(left).ravel())[0]
-    error = noise.relative(step_error(problem, trainable))
+    error = noise.relative(_step_error(problem, trainable))
     step_move = move(blocks, error.ravel())[1]
     earlier = _earlier(change)
     samples = noise.samples + sum(len(b.common) for b in earlier)
+    alike = float(noise.count @ noise.alike / noise.count.sum())  # over all targets
     found = posterior_covariance([*blocks, *earlier], samples)
     covariance = found.common * np.outer(change.deviations, change.deviations)
     between = covariance[change.parameters, change.parameters]
@@ -93,7 +98,7 @@ def confidence(
     known = np.where(taken, np.maximum(sigma, change.of_parameters), sigma)
     bands = {
         name: _band(change, name, onward[own], covariance[np.ix_(own, own)])
-        for name, own in change.by_law(np.arange(len(onward))).items()
+        for name, own in split(change.bumped, np.arange(len(onward)))[0].items()
     }
     return Confidence(
         bands,
@@ -106,7 +111,7 @@ def confidence(
         _unexplained(problem, left),
         step_move,
         _about(change, sigma, taken),
-        _as_prior(change, found.root / change.deviations, noise.mean_alike),
+        _as_prior(change, found.root / change.deviations, alike),
     )
 
 
@@ -148,11 +153,6 @@ class _Noise:
         """How many independent samples all residuals are worth."""
         return float(np.sum(self.count / self.alike))
 
-    @property
-    def mean_alike(self) -> float:
-        """How many residuals are worth one independent sample, over all targets."""
-        return float(self.count @ self.alike / self.count.sum())
-
     def relative(
         self, values: Float[np.ndarray, "N n_targets *n"]
     ) -> Float[np.ndarray, "N n_targets *n"]:
@@ -192,6 +192,17 @@ def _alike(
         return sum(time * n for time, n in times) / total if total else 1.0
 
     return np.array([one(*pair) for pair in zip(left.T, counts.T, strict=True)])
+
+
+def _step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N n_targets"]:
+    """What shorter steps change in the predictions; zero for adaptive steps, which know their error.
+
+    Nothing is known where inputs are delayed by a time that is trained, as they are laid out for these steps: zero.
+    """
+    known = np.asarray(problem.simulate(trainable).y)
+    if isinstance(problem.solver, Adaptive) or problem.timing.delays:
+        return np.zeros_like(known)
+    return np.asarray(problem.finer().simulate(trainable).y) - known
 
 
 def _earlier(change: Changes) -> list[RecordJacobian]:

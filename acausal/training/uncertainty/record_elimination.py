@@ -7,6 +7,7 @@ memory grow with the number of records, not with its square.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -77,6 +78,34 @@ def covariance(blocks: Sequence[RecordJacobian]) -> Covariance:
         return alone @ alone.T + coupling @ common @ coupling.T
 
     return Covariance(common, tuple(own(t) for t in triangles), root)
+
+
+def move(
+    blocks: Sequence[RecordJacobian], error: Float[np.ndarray, " rows"]
+) -> tuple[Float[np.ndarray, " n"], float]:
+    """How an error of the predictions moves what all records have in common; by how many standard deviations at most.
+
+    Arguments:
+        blocks: the Jacobian by record; the error is in standard deviations of the residuals, too.
+        error: by all rows, one after the other.
+
+    What each record has for itself takes its part of the error first.
+    """
+    ends = np.cumsum([0, *(len(b.common) for b in blocks)]).tolist()
+    rows: list[np.ndarray] = []
+    left: list[np.ndarray] = []
+    for block, (a, b) in zip(blocks, pairwise(ends), strict=True):
+        m = block.own.shape[1]
+        basis = np.linalg.qr(np.concatenate([block.own, np.eye(m)]))[0]  # with its prior
+        common = np.concatenate([block.common, np.zeros((m, block.common.shape[1]))])
+        shift = np.concatenate([error[a:b], np.zeros(m)])
+        rows.append(common - basis @ (basis.T @ common))
+        left.append(shift - basis @ (basis.T @ shift))
+    n = blocks[0].common.shape[1]
+    matrix = np.concatenate([*rows, np.eye(n)])  # the prior
+    basis, root = np.linalg.qr(matrix)
+    along = basis[: len(matrix) - n].T @ np.concatenate(left)
+    return solve_triangular(root, along), float(np.linalg.norm(along))
 
 
 def _triangle(block: RecordJacobian) -> Float[np.ndarray, "k m+n"]:
