@@ -143,14 +143,10 @@ class Connecting(Interpreter):
 
     def repeated(self, loop: Loop) -> Iterator[None]:
         """Once for all values of the loop's variables."""
-        frame = self.frame
         if loop.condition is not None:
             raise self.wrong("'while' stands in algorithms only")
-        for values in self.iterated(loop.iterators):
-            self.frame = frame.with_local(**values)
+        for _ in self.iterated(loop.iterators):
             yield
-            self.frame = frame
-        self.frame = frame
 
     def _chosen(self, statement: Branches) -> list[Statement]:
         """The branch that is taken, which has to be known."""
