@@ -294,9 +294,6 @@ def _snapped(line: list[Point], node: Rect) -> list[Point]:
     """A line that starts at the edge of a node, moved to start in its middle."""
     (_, y), (u, v) = line[0], line[1]
     middle = node.x, node.y
-    if len(line) == 2:
-        other = (u, node.y) if y == v else (node.x, v)
-        return [middle, other]
     second = (u, node.y) if y == v else (node.x, v)
     return [middle, second, *line[2:]]
 
