@@ -23,8 +23,8 @@ from acausal.codegen import Values
 from acausal.errors import (
     DataError,
     ExportError,
+    known_name,
     listing,
-    nearest,
     need_flag,
     shown,
     user_level,
@@ -291,8 +291,7 @@ def _checked_kinds(fmi: object, kinds: str | Sequence[str], step: float) -> tupl
         raise DataError(f"export.fmu: there is no fmi={shown(fmi)}; give '3.0' or '2.0'.")
     chosen = names_in(kinds, "export.fmu: kinds")
     for kind in chosen:
-        if kind not in KINDS:
-            raise DataError(f"export.fmu: there is no kind '{kind}'; {nearest(kind, KINDS)}")
+        known_name(kind, KINDS, "export.fmu: there is no kind")
     if not chosen:
         raise DataError(f"export.fmu: kinds=() leaves nothing to write; give {listing(KINDS)}.")
     if not isinstance(step, int | float) or not (0 < step < math.inf):
@@ -306,10 +305,7 @@ def _checked_platforms(names: Sequence[str] | None, fmi: str) -> tuple[Platform,
         return None
     found: dict[str, Platform] = {}
     for name in dict.fromkeys(names_in(names, "export.fmu: platforms")):
-        if name not in PLATFORMS:
-            raise DataError(
-                f"export.fmu: there is no platform '{name}'; {nearest(name, PLATFORMS)}"
-            )
+        known_name(name, PLATFORMS, "export.fmu: there is no platform")
         place = platform_named(name, fmi)
         if place is None:
             raise DataError(
@@ -328,8 +324,7 @@ def _known(inputs: Sequence[str] | None, known: Sequence[str]) -> tuple[str, ...
         return tuple(known)
     chosen = names_in(inputs, "export.fmu: inputs")
     for name in chosen:
-        if name not in known:
-            raise DataError(f"export.fmu: the model has no input '{name}'; {nearest(name, known)}")
+        known_name(name, known, "export.fmu: the model has no input")
     return chosen
 
 
@@ -340,8 +335,6 @@ def _wanted(outputs: Sequence[str] | None, system: System) -> tuple[str, ...]:
     for name in chosen:
         if name in system.inputs:
             raise DataError(f"export.fmu: '{name}' is an input; leave it out of outputs=[...].")
-        if name not in system.variables and not name.startswith("der("):
-            raise DataError(
-                f"export.fmu: the model has no variable '{name}'; {nearest(name, system.variables)}"
-            )
+        if not name.startswith("der("):
+            known_name(name, system.variables, "export.fmu: the model has no variable")
     return chosen

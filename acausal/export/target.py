@@ -15,7 +15,7 @@ from jax.extend.core import ClosedJaxpr
 
 from acausal._jax import need_known
 from acausal.analysis import Observer, ObserverMemory
-from acausal.errors import DataError, nearest, need_compiled, shown
+from acausal.errors import DataError, known_name, need_compiled, shown
 from acausal.export.needs import all_parameters, need_exportable
 from acausal.modeling import Component, ModuleCall, Reference, names_in
 from acausal.networks import EnergyLaw, law_of
@@ -102,7 +102,7 @@ def target_of(
                     "export: inputs=... names the arguments of a network; give network=..., too"
                 )
             return _of_system(model, given, outputs, parameters)
-        law = _network_named(model, given, network)
+        law = given[known_name(network, model.layout.module_names, "export: there is no network")]
         found = _called_with(model, network)
         names, output, known = found or (_arguments(law), "y", {})
         return _network(
@@ -269,18 +269,6 @@ def _of_network(
     result = TargetPort(output, shape, elements, (units.get(output, ""),) * len(elements))
     kind = "energy's law" if isinstance(network, EnergyLaw) else "law"
     return Target(f"{kind} {network!r}"[:200], lambda *a: (law(*a),), ports, (result,))
-
-
-def _network_named(system: System, params: Mapping[str, Any], name: str) -> Any:
-    """A network by its name among the parameters.
-
-    Raises:
-        DataError: for an unknown name, or a parameter that is a number.
-    """
-    names = system.layout.module_names
-    if name not in names:
-        raise DataError(f"export: there is no network {shown(name)}; {nearest(name, names)}")
-    return params[name]
 
 
 def arguments(target: Target, batch: str | None, function: str) -> list[jax.ShapeDtypeStruct]:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from acausal.errors import DeclarationError, nearest, need_flag
+from acausal.errors import DeclarationError, known_name, need_flag
 from acausal.fmu.archive import read
 from acausal.fmu.description import REAL, Conversion, Description, FMUVariable, read_description
 from acausal.fmu.fmu_view import as_html, as_text
@@ -140,10 +140,7 @@ class FMU(Component):
         Raises:
             DeclarationError: for any other name.
         """
-        if name not in self._names:
-            raise DeclarationError(
-                f"{self._node.label} has no '{name}': {nearest(name, list(self._names))}"
-            )
+        known_name(name, self._names, f"{self._node.label} has no", DeclarationError)
         return vars(self)[self._names[name]]
 
     def __repr__(self) -> str:
