@@ -181,10 +181,8 @@ def _content(
     content |= {f"sources/{file}": data.encode() for file, data in sources.items()}
     if fmi == "3.0":
         content["sources/buildDescription.xml"] = build_description(text.name, compiled)
-    if platforms is None:
-        return content | _library(text.name, sources, compiled, fmi)
-    for place in platforms:
-        library = build(text.name, sources, compiled, _command(place, fmi))
+    for place, command in _compilers(platforms, fmi):
+        library = build(text.name, sources, compiled, command)
         content[f"binaries/{place.folder}/{text.name}{place.ending}"] = library
     return content
 
@@ -242,22 +240,21 @@ def _experiment(system: System) -> tuple[float, ...]:
     return (float(start),) if stop is None else (float(start), float(stop))
 
 
-def _library(
-    name: str, sources: Mapping[str, str], compiled: Sequence[str], fmi: str
-) -> dict[str, bytes]:
-    """The library for this computer under its path in the FMU; none, with a warning, where it cannot be built."""
+def _compilers(
+    platforms: Sequence[Platform] | None, fmi: str
+) -> list[tuple[Platform, Sequence[str]]]:
+    """Platforms and their compilers; by default this computer's, or none, with a warning, where it has none."""
+    if platforms is not None:
+        return [(place, _command(place, fmi)) for place in platforms]
     place, command = this_platform(fmi), compiler()
-    if place is None or command is None:
-        missing = (
-            "there is no C compiler" if command is None else "FMI has no name for this platform"
-        )
-        warnings.warn(
-            f"export.fmu: {missing}, so the FMU holds sources only; its importer must compile them.",
-            stacklevel=user_level(),
-        )
-        return {}
-    library = build(name, sources, compiled, [command])
-    return {f"binaries/{place.folder}/{name}{place.ending}": library}
+    if place is not None and command is not None:
+        return [(place, [command])]
+    missing = "there is no C compiler" if command is None else "FMI has no name for this platform"
+    warnings.warn(
+        f"export.fmu: {missing}, so the FMU holds sources only; its importer must compile them.",
+        stacklevel=user_level(),
+    )
+    return []
 
 
 def _command(place: Platform, fmi: str) -> Sequence[str]:

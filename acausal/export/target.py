@@ -196,14 +196,8 @@ def _of_system(
         dx, y = system.rates_and_read(outputs, values)
         return (dx, y) if system.states else (y,)
 
-    results = [
-        TargetPort("der(x)", p.shape, tuple(f"der({n})" for n in p.elements), _rates(system))
-        for p in ports
-        if p.name == "x"
-    ]
-    results += [
-        TargetPort("y", (len(outputs),), outputs, tuple(system.unit(n) for n in outputs))
-    ] * bool(outputs)
+    results = _vector("der(x)", tuple(f"der({n})" for n in system.states), system)
+    results += _vector("y", outputs, system)
     if not results:
         raise DataError("export: the model has no states; name its outputs=[...].")
     return Target(type(system.model).__name__, _flat(call, results), tuple(ports), tuple(results))
@@ -297,10 +291,6 @@ def traced(target: Target, batch: str | None, function: str) -> ClosedJaxpr:
 def _vector(name: str, elements: tuple[str, ...], system: System) -> list[TargetPort]:
     units = tuple(system.unit(e) for e in elements)
     return [TargetPort(name, (len(elements),), elements, units)] if elements else []
-
-
-def _rates(system: System) -> tuple[str, ...]:
-    return tuple(system.unit(f"der({name})") for name in system.states)
 
 
 def _flat(

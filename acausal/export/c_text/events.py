@@ -64,18 +64,6 @@ def event_functions(events: Events, vector: ParameterVector) -> dict[str, Callab
     }
 
 
-def argument_sizes(events: Events, states: int, inputs: int) -> dict[str, int | None]:
-    """The lengths of the arrays that the functions of `ARGUMENTS` read; None for a number."""
-    return {
-        "x_before": states,
-        "d_before": len(events.exact),
-        "along_x": states,
-        "along_u": inputs,
-        "holds": events.n_guards,
-        "initial": None,
-    }
-
-
 def constants() -> Iterator[str]:
     """The limits of event iteration and search, those of `acausal.simulate`."""
     reals = {

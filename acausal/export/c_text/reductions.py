@@ -82,7 +82,7 @@ def _reduce(low: Lowering, operation: TracedOperation, args: list[CArray]) -> li
         return [CArray(shape, kind, lambda i: element(i, zeros), source.cost)]
     buffer = low.new(shape, kind)
     for outer in low.over(shape):
-        total = _total(low, start, kind)
+        total = _variable(low, _first(start, kind), kind)
         for inside in low.over(lengths):
             low.emit(Assign(total, combine(total, element(outer, inside))))
         low.write(buffer, linear(outer, shape), total)
@@ -98,13 +98,11 @@ def _argument(op: str) -> Any:
         shape = operation.outputs[0].shape
         buffer = low.new(shape, "int")
         for outer in low.over(shape):
-            best = Read(low.memory.name("s"), None, source.kind)
 
             def at(i: Expr, outer: Index = outer) -> Expr:
                 return source.at((*outer[:axis], i, *outer[axis:]))
 
-            low.emit(Declare(Buffer(best.name, best.kind, None)))
-            low.emit(Assign(best, at(integer(0))))
+            best = _variable(low, at(integer(0)), source.kind)
             place = linear(outer, shape)
             low.write(buffer, place, integer(0))
             for (inside,) in low.over((source.shape[axis],)):
@@ -127,12 +125,12 @@ def _argument(op: str) -> Any:
     return rule
 
 
-def _total(low: Lowering, start: float, kind: str) -> Read:
+def _variable(low: Lowering, start: Expr, kind: str) -> Read:
     """A number in which others are combined."""
-    total = Read(low.memory.name("s"), None, kind)
-    low.emit(Declare(Buffer(total.name, kind, None)))
-    low.emit(Assign(total, _first(start, kind)))
-    return total
+    variable = Read(low.memory.name("s"), None, kind)
+    low.emit(Declare(Buffer(variable.name, kind, None)))
+    low.emit(Assign(variable, start))
+    return variable
 
 
 def _cumulative(reduce: str) -> Any:
@@ -145,7 +143,7 @@ def _cumulative(reduce: str) -> Any:
         rest = (*shape[:axis], *shape[axis + 1 :])
         buffer = low.new(shape, kind)
         for outer in low.over(rest):
-            total = _total(low, start, kind)
+            total = _variable(low, _first(start, kind), kind)
             for (i,) in low.over((shape[axis],)):
                 k = add(times(i, -1), integer(shape[axis] - 1)) if reverse else i
                 index = (*outer[:axis], k, *outer[axis:])
@@ -185,7 +183,7 @@ def _dot(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[
     buffer = low.new(shape, kind)
     if _rows_last(a, ca) and (_rows_last(b, cb) or not free_b):
         for out in low.over(shape):
-            total = _total(low, 0, kind)
+            total = _variable(low, _first(0, kind), kind)
             for inside in low.over(lengths):
                 low.emit(Assign(total, term(out, inside), op="+="))
             low.write(buffer, linear(out, shape), total)

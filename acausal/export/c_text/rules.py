@@ -317,6 +317,10 @@ def _iota(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list
 
 # -- the table ---------------------------------------------------------------------------------------
 
+SAME = """acos acosh asin asinh atan atan2 atanh cbrt cos cosh erf erfc exp exp2 expm1 lgamma log log1p pow sin sinh
+sqrt tan tanh"""
+"""Functions that C has under JAX's names."""
+
 ON_ELEMENTS: Mapping[str, Rule] = {
     "add": _operator("+"), "add_any": _operator("+"), "sub": _operator("-"), "mul": _operator("*"),
     "neg": _on_elements(lambda a: Apply("neg", (a,), a.kind)),
@@ -332,17 +336,9 @@ ON_ELEMENTS: Mapping[str, Rule] = {
     "integer_pow": _integer_pow, "square": _prelude("square", 1),
     "logistic": _prelude("logistic", 10), "rsqrt": _prelude("inverse_sqrt", 10),
     "one_minus_square": _prelude("one_minus_square", 2),
-    "round": _prelude("round_even", 3), "pow": _function("pow"), "atan2": _function("atan2"),
-    "floor": _function("floor", 2), "ceil": _function("ceil", 2),
-    "nextafter": _function("nextafter", 3), "sqrt": _function("sqrt"), "cbrt": _function("cbrt"),
-    "exp": _function("exp"), "exp2": _function("exp2"), "expm1": _function("expm1"),
-    "log": _function("log"), "log1p": _function("log1p"), "sin": _function("sin"),
-    "cos": _function("cos"), "tan": _function("tan"), "asin": _function("asin"),
-    "acos": _function("acos"), "atan": _function("atan"), "sinh": _function("sinh"),
-    "cosh": _function("cosh"), "tanh": _function("tanh"), "asinh": _function("asinh"),
-    "acosh": _function("acosh"), "atanh": _function("atanh"), "erf": _function("erf"),
-    "erfc": _function("erfc"), "lgamma": _function("lgamma"), "clamp": _clamp,
-    "convert_element_type": _convert, "select_n": _select_n,
+    "round": _prelude("round_even", 3), "floor": _function("floor", 2), "ceil": _function("ceil", 2),
+    "nextafter": _function("nextafter", 3), **{name: _function(name) for name in SAME.split()},
+    "clamp": _clamp, "convert_element_type": _convert, "select_n": _select_n,
 }  # fmt: skip
 
 MOVED: Mapping[str, Rule] = {
