@@ -16,9 +16,7 @@ from acausal.modelica.syntax import (
     Branches,
     Connect,
     Do,
-    DottedName,
     FunctionCall,
-    LiteralConstant,
     Loop,
     Statement,
 )
@@ -134,11 +132,7 @@ class Connecting(Interpreter):
             return
         left = edge.ends[0]
         node = left.node if isinstance(left, Redundant) else ends[0].node
-        constraint = node.member("equalityConstraint")
-        name = DottedName(("equalityConstraint",), {}, edge.at)
-        residual = self.inlined(
-            constraint, FunctionCall(name, [LiteralConstant(e, edge.at) for e in ends], {}, edge.at)
-        )[0]
+        residual = self.called(node.member("equalityConstraint"), ends, {})
         yield from self.pairs(residual, np.zeros(np.shape(residual), dtype=object))
 
     def repeated(self, loop: Loop) -> Iterator[None]:

@@ -260,14 +260,8 @@ def _spread(entry: Entry, name: str, given: Any, sizes: list[int], bound: Bound 
     """An array of the declared size; a single value goes to all elements."""
     if isinstance(given, np.ndarray):
         if list(given.shape) != sizes:
-            node, at = (
-                (entry.node, entry.declared.at)
-                if bound is None
-                else (bound.frame.node, bound.expression.at)
-            )
-            raise node.wrong(
-                at, f"'{name}' has the size {sizes}, its value has {list(given.shape)}"
-            )
+            reason = f"'{name}' has the size {sizes}, its value has {list(given.shape)}"
+            raise (bound or entry).wrong(reason)
         return given
     found = np.empty(sizes, dtype=object)
     found[...] = given
