@@ -161,15 +161,12 @@ class FMU(Component):
             name = name_of(v)
             limits = sorted(map(v.conversion.to_model, (v.minimum, v.maximum)))
             low, high = (None if np.isinf(limit) else limit for limit in limits)
-            unit = v.conversion.unit
-            declared = Parameter(unit=unit, min=low, max=high, shape=v.shape, doc=v.text)
-            self._add_declaration(name, declared)
+            self._add_declaration(name, _declared(Parameter, v, min=low, max=high))
             self.modify(**{self._names[name]: chosen.values.get(v.name, starts(v))})
         for v in chosen.inputs:
             if v.name not in chosen.values:
-                given, unit = (None if v.start is None else starts(v)), v.conversion.unit
-                declared = Input(kind=_kind(v), default=given, unit=unit, shape=v.shape, doc=v.text)
-                self._add_declaration(v.name, declared)
+                given = None if v.start is None else starts(v)
+                self._add_declaration(v.name, _declared(Input, v, kind=_kind(v), default=given))
         if self._part.kind == "cs":
             self._declare_held(chosen.results)
         else:
@@ -177,14 +174,8 @@ class FMU(Component):
 
     def _declare_held(self, results: Iterable[FMUVariable]) -> None:
         for v in results:
-            declared = _Held(
-                _nested(v.starts, v.shape or ()),
-                kind=_kind(v),
-                unit=v.conversion.unit,
-                shape=v.shape,
-                doc=v.text,
-            )
-            self._add_declaration(v.name, declared)
+            start = _nested(v.starts, v.shape or ())
+            self._add_declaration(v.name, _declared(_Held, v, start=start, kind=_kind(v)))
         kind = _Held if self._part.memory else Discrete
         self._add_declaration(HISTORY, kind(0, kind="int", doc="number of the FMU's history"))
         self._add_declaration(REACHED, Discrete(0, kind="int", doc="the same before new inputs"))
@@ -210,21 +201,13 @@ class FMU(Component):
             start = f"fmu_start_{first}"
             vars(self)[start] = self._starts(first, v)
             kind = Output if v.name in seen else Variable
-            declared = kind(
-                start=start,
-                unit=v.conversion.unit,
-                nominal=abs(v.conversion.factor) * v.nominal,
-                state="always",
-                shape=v.shape,
-                doc=v.text,
-            )
+            nominal = abs(v.conversion.factor) * v.nominal
+            declared = _declared(kind, v, start=start, nominal=nominal, state="always")
             self._add_declaration(v.name, declared)
             first += v.size
         for v in results:
             if v.name not in self._names:
-                self._add_declaration(
-                    v.name, Output(unit=v.conversion.unit, shape=v.shape, doc=v.text)
-                )
+                self._add_declaration(v.name, _declared(Output, v))
         if self._has_events:
             self._add_declaration(
                 HISTORY, Discrete(0, kind="int", doc="number of the FMU's history")
@@ -349,6 +332,11 @@ class FMU(Component):
             states = found.first_states if found is not None else [0.0] * part.n
             each = states[first : first + variable.size]
         return _nested([variable.conversion.to_model(e) for e in each], variable.shape or ())
+
+
+def _declared(role: type[Declaration], v: FMUVariable, **more: Any) -> Declaration:
+    """The declaration of a variable, in the model's unit."""
+    return role(unit=v.conversion.unit, shape=v.shape, doc=v.text, **more)
 
 
 def _kind(variable: FMUVariable) -> Literal["bool", "real", "int"]:
