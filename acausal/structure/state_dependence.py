@@ -12,7 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from acausal.flattening import Integers
 from acausal.structure.algebraic_loops import TornLoop
 from acausal.structure.blocks import Accumulation, Assignment
-from acausal.structure.dependence import Computation, TooManyError, dependence
+from acausal.structure.dependence import Computation, dependence
 from acausal.structure.reduced_model import ReducedModel
 from acausal.structure.sparse_loops import SparseLoop
 
@@ -45,11 +45,8 @@ def jacobian_pattern(
         else:
             computations.append(_COMPUTATION[type(step)](step))
     columns = np.concatenate(sources)
-    try:
-        found = dependence(computations, columns, np.concatenate(wanted), n_nodes, most)
-    except TooManyError:
-        return None
-    return len(columns), *found
+    found = dependence(computations, columns, np.concatenate(wanted), n_nodes, most)
+    return None if found is None else (len(columns), *found)
 
 
 def dependence_pattern(
@@ -61,10 +58,7 @@ def dependence_pattern(
         most: how many dependences may be listed, also of variables that are not wanted.
     """
     computations = [_COMPUTATION[type(step)](step) for step in reduced.steps]
-    try:
-        return dependence(computations, sources, wanted, len(reduced.derivative), most)
-    except TooManyError:
-        return None
+    return dependence(computations, sources, wanted, len(reduced.derivative), most)
 
 
 def _table(results: Integers, reads: Integers) -> Computation:
