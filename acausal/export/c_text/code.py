@@ -134,7 +134,7 @@ def write_code(
             return jax.jvp(lambda x: system.rates(now._replace(x=x)), (x,), (seed,))[1:]
 
         seeds = given("seed_x")
-        add("column", block_of(along_state, seeds), ["ddx"], seeds)
+        add("jacobian_column", block_of(along_state, seeds), ["ddx"], seeds)
     if watch is not None:
         excess = block_of(lambda *now: jnp.reshape(watch.excess(values(*now)), (1,)))
         add(EXCESS, excess, [EXCESS])
