@@ -6,6 +6,7 @@ import ctypes as C
 from collections import deque
 from collections.abc import Sequence
 from functools import cached_property
+from itertools import groupby
 from typing import Any
 
 from acausal.errors import SimulationError, shortened
@@ -45,19 +46,12 @@ class Variables:
         self.size = sum(v.size for v in variables)
         self.blocks: list[tuple[str, Any, Any, int, int, int]] = []
         first = 0
-        for v in variables:
-            word, kind = kind_of(version, v.type)
-            last = self.blocks[-1] if self.blocks else None
-            if last is not None and last[0] == word:
-                references = (*last[2], v.reference)
-                self.blocks[-1] = (word, kind, references, last[3], last[4] + v.size, 0)
-            else:
-                self.blocks.append((word, kind, (v.reference,), first, v.size, 0))
-            first += v.size
-        self.blocks = [
-            (word, kind, (C.c_uint32 * len(r))(*r), start, size, len(r))
-            for word, kind, r, start, size, _ in self.blocks
-        ]
+        for (word, kind), run in groupby(variables, lambda v: kind_of(version, v.type)):
+            some = list(run)
+            references = (C.c_uint32 * len(some))(*(v.reference for v in some))
+            size = sum(v.size for v in some)
+            self.blocks.append((word, kind, references, first, size, len(some)))
+            first += size
 
 
 def kind_of(version: str, name: str) -> tuple[str, Any]:
