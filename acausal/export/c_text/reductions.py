@@ -26,7 +26,8 @@ from acausal.export.traced import TracedOperation
 Combine = Callable[[Expr, Expr], Expr]
 
 
-def _operator(op: str, kind: str | None = None) -> Combine:
+def operator(op: str, kind: str | None = None) -> Combine:
+    """An operator of two numbers; its result is of a kind, by default that of the first."""
     return lambda a, b: Apply(op, (a, b), kind or a.kind)
 
 
@@ -40,13 +41,13 @@ def _extreme(name: str) -> Callable[[Lowering, str], Combine]:
 
 
 _COMBINE: Mapping[str, tuple[Callable[[Lowering, str], Combine], float]] = {
-    "reduce_sum": (lambda low, kind: _operator("+"), 0),
-    "reduce_prod": (lambda low, kind: _operator("*"), 1),
+    "reduce_sum": (lambda low, kind: operator("+"), 0),
+    "reduce_prod": (lambda low, kind: operator("*"), 1),
     "reduce_max": (_extreme("maximum"), -np.inf),
     "reduce_min": (_extreme("minimum"), np.inf),
-    "reduce_and": (lambda low, kind: _operator("&&", "bool"), 1),
-    "reduce_or": (lambda low, kind: _operator("||", "bool"), 0),
-    "reduce_xor": (lambda low, kind: _operator("!=", "bool"), 0),
+    "reduce_and": (lambda low, kind: operator("&&", "bool"), 1),
+    "reduce_or": (lambda low, kind: operator("||", "bool"), 0),
+    "reduce_xor": (lambda low, kind: operator("!=", "bool"), 0),
 }
 
 

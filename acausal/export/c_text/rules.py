@@ -53,15 +53,8 @@ def _element(array: CArray, index: Index) -> Expr:
     return array.at(tuple(integer(0) if n == 1 else i for i, n in own))
 
 
-def _operator(op: str) -> Rule:
-    def write(a: Expr, b: Expr) -> Expr:
-        return Apply(op, (a, b), a.kind)
-
-    return _on_elements(write)
-
-
-def _relation(op: str) -> Rule:
-    return _on_elements(lambda a, b: Apply(op, (a, b), "bool"))
+def _operator(op: str, kind: str | None = None) -> Rule:
+    return _on_elements(reductions.operator(op, kind))
 
 
 def _logical(op: str) -> Rule:
@@ -327,10 +320,10 @@ ON_ELEMENTS: Mapping[str, Rule] = {
     "div": _operator("/"), "rem": _real_or_int("fmod", "remainder_int", 4),
     "max": _real_or_int("maximum", "maximum_int", 2), "min": _real_or_int("minimum", "minimum_int", 2),
     "abs": _real_or_int("fabs", "absolute_int", 1), "sign": _real_or_int("signum", "signum_int", 2),
-    "eq": _relation("=="), "ne": _relation("!="), "lt": _relation("<"), "le": _relation("<="),
-    "lt_to": _relation("<"), "le_to": _relation("<="),
-    "gt": _relation(">"), "ge": _relation(">="),
-    "and": _logical("&&"), "or": _logical("||"), "xor": _relation("!="),
+    "eq": _operator("==", "bool"), "ne": _operator("!=", "bool"), "gt": _operator(">", "bool"),
+    "lt": _operator("<", "bool"), "le": _operator("<=", "bool"), "ge": _operator(">=", "bool"),
+    "lt_to": _operator("<", "bool"), "le_to": _operator("<=", "bool"),
+    "and": _logical("&&"), "or": _logical("||"), "xor": _operator("!=", "bool"),
     "not": _on_elements(lambda a: Apply("!", (a,), "bool")),
     "is_finite": _on_elements(lambda a: convert(Apply("isfinite", (a,), "int"), "bool")),
     "integer_pow": _integer_pow, "square": _prelude("square", 1),
