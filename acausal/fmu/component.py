@@ -21,6 +21,7 @@ from acausal.modeling import (
     Component,
     Declaration,
     Discrete,
+    DiscreteOutput,
     Eq,
     GivenModule,
     Input,
@@ -46,14 +47,10 @@ REACHED, COMPLETED, TAKEN = "fmu.reached", "fmu.completed", "fmu.taken"
 """Names of what the model knows of the FMU's events."""
 
 
-class _Held(Discrete, Output):
-    """An output that is read at communication points and held between them."""
-
-
 class _Earlier(Component):
     """An input of a co-simulation as it was one communication point before."""
 
-    u, history, y = Input(), Input(kind="int"), _Held()
+    u, history, y = Input(), Input(kind="int"), DiscreteOutput()
 
     def equations(self) -> Iterable[Eq]:
         """At a communication point the history changes."""
@@ -175,8 +172,8 @@ class FMU(Component):
     def _declare_held(self, results: Iterable[FMUVariable]) -> None:
         for v in results:
             start = _nested(v.starts, v.shape or ())
-            self._add_declaration(v.name, _declared(_Held, v, start=start, kind=_kind(v)))
-        kind = _Held if self._part.memory else Discrete
+            self._add_declaration(v.name, _declared(DiscreteOutput, v, start=start, kind=_kind(v)))
+        kind = DiscreteOutput if self._part.memory else Discrete
         self._add_declaration(HISTORY, kind(0, kind="int", doc="number of the FMU's history"))
         self._add_declaration(REACHED, Discrete(0, kind="int", doc="the same before new inputs"))
         if self._part.memory:
@@ -185,7 +182,7 @@ class FMU(Component):
     def _declare_memory(self, n: int) -> None:
         """Inputs at the last communication point, and one part for each at a point before: many, but of one form."""
         self._add_declaration(
-            TAKEN, _Held(shape=(n,), doc="inputs at the last communication point")
+            TAKEN, DiscreteOutput(shape=(n,), doc="inputs at the last communication point")
         )
         self.earlier = [_Earlier() for _ in range(n * (self._part.memory - 1))]
         for source, part in zip(

@@ -20,6 +20,7 @@ from acausal.modelica.values import array_of, each, elements, nested, type_of, w
 from acausal.modelica.views import Entry
 from acausal.modeling import (
     Discrete,
+    DiscreteOutput,
     InitialParameter,
     Input,
     Output,
@@ -29,10 +30,6 @@ from acausal.modeling import (
 )
 
 KINDS: dict[str, Any] = {"Real": "real", "Boolean": "bool"}
-
-
-class DiscreteOutput(Discrete, Output):
-    """An output signal that changes at events only."""
 
 
 def declare(

@@ -259,6 +259,10 @@ class Output(Variable):
     """A causal signal that leaves."""
 
 
+class DiscreteOutput(Discrete, Output):
+    """An output that changes at events only."""
+
+
 class Option(Declaration):
     """A structural choice, fixed when the component is made: it may change equations and connectors."""
 
