@@ -38,7 +38,7 @@ class InputStatistics(Protocol):
 
 
 class UncertainCurve(Protocol):
-    """A curve with its band, such as `Confidence.laws`."""
+    """A curve with its standard deviation, such as `Confidence.laws`."""
 
     @property
     def x(self) -> Float[np.ndarray, " points"]:
@@ -48,6 +48,11 @@ class UncertainCurve(Protocol):
     @property
     def law(self) -> Float[np.ndarray, " points"]:
         """The curve."""
+        ...
+
+    @property
+    def sigma(self) -> Float[np.ndarray, " points"]:
+        """The standard deviation."""
         ...
 
     @property
