@@ -83,7 +83,7 @@ def test_without_pandas_the_table_is_our_own(
     assert first.split() == ["kind", "value", "unit", "doc", "start", "origin"]
     assert len(rows) == len(table)
     assert "<th>r.R</th><td>parameter</td><td>100</td><td>Ohm</td>" in table._repr_html_()
-    with pytest.raises(ac.DataError, match=r"no row 'r\.r'; did you mean"):
+    with pytest.raises(ac.DataError, match=r"no row 'r\.r': did you mean"):
         _ = table["r.r"]
 
 

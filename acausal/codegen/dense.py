@@ -23,7 +23,6 @@ def solve_linear(
     block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
 ) -> Float[Array, " n"]:
     """Unknowns of a block that is affine in its tearing variables; ``guess`` gives their number."""
-    del scale
     origin = jnp.zeros_like(guess)
 
     def solve(residual: Residual, start: Array) -> Array:

@@ -157,7 +157,6 @@ class _Writer:
             self.implicit += [sp.Eq(r, 0, evaluate=False) for r in residuals]
 
     def sparse_loop_needs(self, loop: SolveSparseLoop, place: Place) -> list[Place]:
-        del place
         gathers = [(g, f.size) for f in loop.formulas for _, g in f.arguments.variables]
         gathers.append((loop.balances.outer, len(loop.balances.outer_rows)))
         return list(dict.fromkeys(p for g, size in gathers for p in self.places(g, size)))

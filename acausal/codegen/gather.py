@@ -33,7 +33,6 @@ class One:
 
     def positions(self, sizes: Sequence[int]) -> Positions:
         """Where the element lies; ``sizes`` are the lengths of all arrays."""
-        del sizes
         return np.asarray([self.source]), np.asarray([self.index])
 
 
@@ -50,7 +49,6 @@ class IndexRuns:
 
     def positions(self, sizes: Sequence[int]) -> Positions:
         """Where the elements lie; see `One.positions`."""
-        del sizes
         sources = [np.full(length, source) for source, _, _, length in self.runs]
         indices = [start + step * np.arange(length) for _, start, step, length in self.runs]
         nothing = np.zeros(0, dtype=np.int64)

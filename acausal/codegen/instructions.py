@@ -57,7 +57,6 @@ class ExplicitInstruction:
 
     def text_at(self, row: int) -> str:
         """That of a row."""
-        del row
         return self.text
 
     def found_with(self, place: Place) -> list[Place]:

@@ -179,7 +179,6 @@ def _compute_together(instruction: UnlikeFormulas, values: Values, arrays: Array
 
 
 def _accumulate(instruction: Accumulate, values: Values, arrays: Arrays) -> list[Array]:
-    del values
     return [add_up(instruction, read_elements(instruction.values, arrays))]
 
 

@@ -6,9 +6,7 @@ they can be jitted, vmapped and differentiated.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any
 
 import jax.numpy as jnp
 from jax.lax.linalg import lu, triangular_solve
@@ -19,22 +17,8 @@ from acausal.flattening import Integers
 from acausal.structure import analyse_diagonal
 
 
-class IterationMatrix(ABC):
-    """How ``I - c J`` is factorized and solved, for a Jacobian ``J`` with a fixed pattern."""
-
-    @abstractmethod
-    def factorize(self, entries: Float[Array, " n_entries"], c: Float[Array, ""] | float) -> Any:
-        """What is kept of ``I - c J``: arrays; ``entries`` are those of ``J``."""
-
-    @abstractmethod
-    def solve(
-        self, kept: Any, b: Float[Array, " n"], *, transposed: bool = False
-    ) -> Float[Array, " n"]:
-        """``x`` with ``(I - c J) x = b``, or with the transposed matrix; not finite where it is singular."""
-
-
 @dataclass(frozen=True, eq=False)
-class DenseIterationMatrix(IterationMatrix):
+class DenseIterationMatrix:
     """By LAPACK; the factors themselves are kept: the LU factors in one matrix, and the permutation of the rows.
 
     Attributes:
@@ -47,7 +31,7 @@ class DenseIterationMatrix(IterationMatrix):
     def factorize(
         self, entries: Float[Array, " n_entries"], c: Float[Array, ""] | float
     ) -> tuple[Array, Array]:
-        """See `IterationMatrix`."""
+        """What is kept of ``I - c J``: arrays; ``entries`` are those of ``J``."""
         n = self.n
         if self.positions is None:
             jacobian = entries.reshape(n, n)
@@ -60,7 +44,7 @@ class DenseIterationMatrix(IterationMatrix):
     def solve(
         self, kept: tuple[Array, Array], b: Float[Array, " n"], *, transposed: bool = False
     ) -> Float[Array, " n"]:
-        """See `IterationMatrix`."""
+        """``x`` with ``(I - c J) x = b``, or with the transposed matrix; not finite where it is singular."""
         factors, permutation = kept
         if not transposed:
             y = _triangular(factors, b[permutation], lower=True)
@@ -83,7 +67,7 @@ def _triangular(factors: Array, b: Array, *, lower: bool, transposed: bool = Fal
 
 
 @dataclass(frozen=True, eq=False)
-class SparseIterationMatrix(IterationMatrix):
+class SparseIterationMatrix:
     """By SuperLU on the host; the matrix's entries are kept, and the host remembers the factors that belong to them.
 
     Attributes:
@@ -104,7 +88,7 @@ class SparseIterationMatrix(IterationMatrix):
     def factorize(
         self, entries: Float[Array, " n_entries"], c: Float[Array, ""] | float
     ) -> Float[Array, " n_entries"]:
-        """See `IterationMatrix`; the factorization is made when it is first needed."""
+        """See `DenseIterationMatrix`; the factorization is made when it is first needed."""
         pattern = self.matrix.pattern
         of_states = pattern.rows < self.n
         identity = (pattern.rows == pattern.columns) & of_states
@@ -114,6 +98,6 @@ class SparseIterationMatrix(IterationMatrix):
     def solve(
         self, kept: Float[Array, " n_entries"], b: Float[Array, " n"], *, transposed: bool = False
     ) -> Float[Array, " n"]:
-        """See `IterationMatrix`."""
+        """See `DenseIterationMatrix`."""
         padded = jnp.pad(b, (0, len(self.matrix.pattern.row_order) - len(b)))
         return self.matrix.solve(kept, padded, transposed=transposed)[: len(b)]

@@ -15,7 +15,6 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import sympy as sp
-from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 from sympy.logic.boolalg import Boolean
 
@@ -244,13 +243,6 @@ def _fold(function: Callable[[Any, Any], Any]) -> LoweringRule:
     return fold
 
 
-def _relation(function: Callable[[Any, Any], Any]) -> LoweringRule:
-    def relate(node: Relational, visit: Visit) -> Any:
-        return function(visit(node.lhs), visit(node.rhs))
-
-    return relate
-
-
 def _module(node: Any, visit: Visit) -> Any:
     module, orders, *args = node.args
     call, values = visit(module), [jnp.asarray(visit(a)) for a in args]
@@ -294,12 +286,12 @@ RULES: dict[type, LoweringRule] = {
     sp.Max: _fold(jnp.maximum),
     sp.Min: _fold(jnp.minimum),
     sp.Piecewise: _piecewise,
-    sp.Gt: _relation(lambda a, b: jnp.asarray(a) > b),
-    sp.Ge: _relation(lambda a, b: jnp.asarray(a) >= b),
-    sp.Lt: _relation(lambda a, b: jnp.asarray(a) < b),
-    sp.Le: _relation(lambda a, b: jnp.asarray(a) <= b),
-    sp.Eq: _relation(lambda a, b: jnp.asarray(a) == b),
-    sp.Ne: _relation(lambda a, b: jnp.asarray(a) != b),
+    sp.Gt: _call(lambda a, b: jnp.asarray(a) > b),
+    sp.Ge: _call(lambda a, b: jnp.asarray(a) >= b),
+    sp.Lt: _call(lambda a, b: jnp.asarray(a) < b),
+    sp.Le: _call(lambda a, b: jnp.asarray(a) <= b),
+    sp.Eq: _call(lambda a, b: jnp.asarray(a) == b),
+    sp.Ne: _call(lambda a, b: jnp.asarray(a) != b),
     sp.And: _fold(jnp.logical_and),
     sp.Or: _fold(jnp.logical_or),
     sp.Not: _call(jnp.logical_not),

@@ -36,7 +36,6 @@ def nearest_of_sparse_loop(
     loop: SolveSparseLoop, row: int, values: Values, arrays: Arrays
 ) -> tuple[Array, Array]:
     """Unknowns and residuals where the search for a solution stopped."""
-    del row
     equations = _equations(loop, values, arrays)
     found = root(equations, jnp.asarray(loop.guess), jnp.asarray(loop.scale))[0]
     return found, equations.residual(found)

@@ -25,7 +25,6 @@ from acausal.codegen.colored_pattern import ColoredPattern
 from acausal.codegen.field import Field
 from acausal.codegen.iteration_matrix import (
     DenseIterationMatrix,
-    IterationMatrix,
     SparseIterationMatrix,
 )
 from acausal.codegen.program import Program
@@ -156,7 +155,7 @@ class StateJacobian(LeavesCaches):
         return self.iteration_matrix.factorize(self.entries(field, x), c)
 
     @cached_property
-    def iteration_matrix(self) -> IterationMatrix:
+    def iteration_matrix(self) -> DenseIterationMatrix | SparseIterationMatrix:
         """How to solve equations with ``I - c J``: with LAPACK for few states or a full matrix, else with SuperLU."""
         if self.pattern is None:
             return DenseIterationMatrix(self.n, None)

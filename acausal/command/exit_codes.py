@@ -23,33 +23,26 @@ class UsageError(Exception):
     """Arguments that do not go together."""
 
 
-KINDS: dict[type[BaseException], tuple[int, str]] = {
-    UsageError: (USAGE, "usage"),
-    KeyboardInterrupt: (INTERRUPTED, "interrupted"),
-    ModelError: (3, "model"),
-    DataError: (4, "data"),
-    SimulationError: (5, "simulation"),
-    TrainingError: (6, "training"),
-    ExportError: (7, "export"),
-    AcausalError: (8, "installation"),
+KINDS: dict[type[BaseException], tuple[int, str, str]] = {
+    UsageError: (USAGE, "usage", "the command was typed wrongly"),
+    ModelError: (3, "model", "the model is wrong, or has no consistent start"),
+    DataError: (4, "data", "data, inputs, parameters or a file do not fit"),
+    SimulationError: (5, "simulation", "a simulation did not reach its end"),
+    TrainingError: (6, "training", "a training could not start or go on"),
+    ExportError: (7, "export", "the model cannot be written in this form"),
+    AcausalError: (8, "installation", "something is missing, such as a package of an extra"),
+    KeyboardInterrupt: (INTERRUPTED, "interrupted", "interrupted by Ctrl-C"),
 }
-"""Code and kind of each class of errors."""
+"""Code, kind and meaning of each class of errors."""
 
 EXIT_CODES = {
     0: "done",
     1: "an unexpected error, with a traceback: please report it",
-    USAGE: "the command was typed wrongly",
-    3: "the model is wrong, or has no consistent start",
-    4: "data, inputs, parameters or a file do not fit",
-    5: "a simulation did not reach its end",
-    6: "a training could not start or go on",
-    7: "the model cannot be written in this form",
-    8: "something is missing, such as a package of an extra",
-    INTERRUPTED: "interrupted by Ctrl-C",
+    **{code: meaning for code, _, meaning in KINDS.values()},
 }
 """What each exit code means."""
 
 
 def kind_of(error: BaseException) -> tuple[int, str]:
     """The exit code and the kind of an error."""
-    return next(found for cls, found in KINDS.items() if isinstance(error, cls))
+    return next(found[:2] for cls, found in KINDS.items() if isinstance(error, cls))

@@ -24,7 +24,7 @@ from acausal.command.arguments import (
 from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.output import CommandOutput, number
 from acausal.command.records import add_reading, read_records
-from acausal.errors import listing, nearest, reason, shown
+from acausal.errors import known_name, listing, reason, shown
 
 
 def add(parsers: Parsers) -> None:
@@ -174,8 +174,7 @@ def as_keywords(options: Mapping[str, Any]) -> dict[str, Any]:
     for name in options:
         if name in NOT_IN_FILES:
             raise ac.TrainingError(f"The option '{name}' can be given in Python only.")
-        if name not in known:
-            raise ac.TrainingError(f"There is no option '{name}': {nearest(name, known)}")
+        known_name(name, known, "There is no option", ac.TrainingError)
     keywords = {name: _value(value, name) for name, value in options.items()}
     FitOptions.of("fit", keywords)
     return keywords

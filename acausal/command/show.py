@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import acausal as ac
@@ -82,8 +82,8 @@ def _states(system: ac.System, params: dict[str, Any]) -> list[Row]:
     ]
 
 
-def _inputs(system: ac.System, params: dict[str, Any]) -> list[Row]:
-    return [{"name": name, "unit": system.unit(name)} for name in system.inputs]
+def _with_units(system: ac.System, names: Iterable[str]) -> list[Row]:
+    return [{"name": name, "unit": system.unit(name)} for name in names]
 
 
 def _parameters(system: ac.System, params: dict[str, Any]) -> list[Row]:
@@ -97,10 +97,6 @@ def _networks(system: ac.System, params: dict[str, Any]) -> list[Row]:
     return [{"name": n, "network": shown(params[n], 100)} for n in system.layout.module_names]
 
 
-def _discrete(system: ac.System, params: dict[str, Any]) -> list[Row]:
-    return [{"name": name} for name in system.discrete]
-
-
 def _equations(system: ac.System, params: dict[str, Any]) -> list[Row]:
     n = len(system.states)
     left = [f"der({name})" for name in system.states]
@@ -111,17 +107,13 @@ def _equations(system: ac.System, params: dict[str, Any]) -> list[Row]:
     ]
 
 
-def _variables(system: ac.System, params: dict[str, Any]) -> list[Row]:
-    return [{"name": name, "unit": system.unit(name)} for name in system.variables]
-
-
 SECTIONS: dict[str, Callable[[ac.System, dict[str, Any]], list[Row]]] = {
     "states": _states,
-    "inputs": _inputs,
+    "inputs": lambda system, _: _with_units(system, system.inputs),
     "parameters": _parameters,
     "networks": _networks,
-    "discrete": _discrete,
+    "discrete": lambda system, _: [{"name": name} for name in system.discrete],
     "equations": _equations,
-    "variables": _variables,
+    "variables": lambda system, _: _with_units(system, system.variables),
 }
 """What can be shown, in this order."""

@@ -21,7 +21,7 @@ from acausal.command.exit_codes import UsageError
 from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.output import CommandOutput, number
 from acausal.command.records import add_reading, read_record
-from acausal.errors import nearest
+from acausal.errors import known_name
 from acausal.files import csv_text, need_path, write_files
 
 if TYPE_CHECKING:
@@ -169,8 +169,7 @@ def _names(patterns: list[str] | None, system: ac.System) -> list[str]:
     known = tuple(dict.fromkeys((*system.variables, *system.inputs)))
     names = names_matching(patterns, known)
     for name in names:
-        if name not in known:
-            raise ac.DataError(f"The model has no variable '{name}': {nearest(name, known)}")
+        known_name(name, known, "The model has no variable")
     return list(names)
 
 

@@ -94,10 +94,12 @@ class Question:
         return self._read(self._ask(self._graph(self._offsets(first))))
 
     def _ask(self, graph: dict[str, Any]) -> dict[str, Any]:
+        graphlay = need_package("graphlay", "Drawing a model", "diagram", AcausalError)
         spacing = {**OPTIONS["spacing"], "stub": self.stub}
         fold = {"viewport_aspect": self.aspect}
+        work = graphlay.layout if self.middles is None else graphlay.reroute
         options = {**OPTIONS, "spacing": spacing, "wrap": fold}
-        return _call(graph, options, stays=self.middles is not None)
+        return json.loads(work(graph, options=options).to_json())
 
     # -- the question ----------------------------------------------------------------------------
 
@@ -241,12 +243,6 @@ class Question:
         return Placed(placed, nets)
 
 
-def _call(graph: dict[str, Any], options: dict[str, Any], *, stays: bool) -> dict[str, Any]:
-    graphlay = need_package("graphlay", "Drawing a model", "diagram", AcausalError)
-    work = graphlay.reroute if stays else graphlay.layout
-    return json.loads(work(graph, options=options).to_json())
-
-
 def _node(width: float, height: float, rank: str = "free") -> dict[str, Any]:
     size = {"width": width, "height": height}
     return {"size": size, "shape": "box", "key": "", "rank": rank}
@@ -294,9 +290,6 @@ def _snapped(line: list[Point], node: Rect) -> list[Point]:
     """A line that starts at the edge of a node, moved to start in its middle."""
     (_, y), (u, v) = line[0], line[1]
     middle = node.x, node.y
-    if len(line) == 2:
-        other = (u, node.y) if y == v else (node.x, v)
-        return [middle, other]
     second = (u, node.y) if y == v else (node.x, v)
     return [middle, second, *line[2:]]
 

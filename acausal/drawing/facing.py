@@ -129,10 +129,7 @@ class _Walk:
 
     def _face(self, number: int, *, first: bool) -> Facing:
         box = self.scheme.boxes[number]
-        fixed: dict[int, Side] = {}
-        for i, port in enumerate(box.ports):
-            if port.side is not None:
-                fixed[i] = port.side
+        fixed: dict[int, Side] = {i: p.side for i, p in enumerate(box.ports) if p.side is not None}
         free = [i for i, port in enumerate(box.ports) if port.side is None]
         used = [i for i in free if i in self.net_at[number]]
         if not free:

@@ -157,14 +157,12 @@ def _framed(placed: Placed) -> Placed:
 
 def _frame(placed: Placed) -> Rect:
     """The frame of an opened box: through its outside connectors, which lie in the middle of its edges."""
-    parts = [drawn.rect for drawn in placed.boxes if not drawn.box.is_port]
     gates = [drawn.rect for drawn in placed.boxes if drawn.box.is_port]
     bounds = replace(placed, boxes=tuple(d for d in placed.boxes if not d.box.is_port)).bounds
     left = min([bounds.left - ROOM] + [gate.x for gate in gates])
     right = max([bounds.right + ROOM] + [gate.x for gate in gates])
     top = min([bounds.top] + [gate.top for gate in gates]) - ROOM - HEADER
     bottom = max([bounds.bottom] + [gate.bottom for gate in gates]) + ROOM
-    assert parts or gates
     return Rect.between(left, right, top, bottom)
 
 

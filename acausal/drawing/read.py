@@ -67,7 +67,7 @@ class _Reader:
 
     def _add_box(self, part: Component, label: str, count: int) -> int:
         role = type(part).__name__
-        icon = part.ICON or default_icon(role)
+        icon = _icon(part)
         ports = ports_of(part, icon, is_list=count > 1)
         path = part._node.path if count == 1 else part._node.path.rpartition("[")[0]
         self.port_index.append({port.name: i for i, port in enumerate(ports)})
@@ -83,11 +83,16 @@ class _Reader:
 
     # -- ends ------------------------------------------------------------------------------------
 
-    def _end(self, end: Any) -> _Fine:
-        """The connector that an end of a connection is, with the box and the port that it is drawn at."""
+    def _end(self, end: Any, *, outside: bool = False) -> _Fine:
+        """The connector that an end of a connection is, with the box and the port that it is drawn at.
+
+        Arguments:
+            outside: whether levels above reach into the model for it, so that it is a gate.
+        """
         owner, name = owner_and_name(end)
         route = () if owner is None else owner.route_from(self.model._node) or ()
-        if not route:
+        if outside or not route:
+            name = ".".join((*route, name))
             return _Fine("", name, self._gate(end, name))
         part, *rest = route
         name = ".".join((*rest, name))
@@ -127,8 +132,7 @@ class _Reader:
         """Connected ends, joined. Of nets between the same ports, as lists have them, one is drawn."""
         sets: Any = UnionFind()
         given: dict[_Fine, Any] = {}
-        for pair in self._connections():
-            a, b = (_at(self, end) for end in pair)
+        for a, b, pair in self._connections():
             given.setdefault(a, pair[0])
             given.setdefault(b, pair[1])
             sets.union(a, b)
@@ -151,15 +155,16 @@ class _Reader:
             own = tuple(self._own(end, used) for end in ends)
             yield Net(own, tuple(names[e] for e in ends), kind != "connector", color)
 
-    def _connections(self) -> Iterator[tuple[Any, Any]]:
-        """Pairs of ends; those that levels above reach are connected to a gate."""
-        yield from self.model._node.connections if self.depth else ()
+    def _connections(self) -> Iterator[tuple[_Fine, _Fine, tuple[Any, Any]]]:
+        """Pairs of connectors, and their ends; those that levels above reach are connected to a gate."""
+        for a, b in self.model._node.connections if self.depth else ():
+            yield self._end(a), self._end(b), (a, b)
         for end in self.reached:
             owner, name = owner_and_name(end)
             if owner is self.model._node:
                 self._gate(end, name)
             else:
-                yield _Reached(end), end
+                yield self._end(end, outside=True), self._end(end), (end, end)
 
     def _within_list(self, ends: list[End]) -> bool:
         """Whether a net only joins components of one list."""
@@ -185,22 +190,6 @@ class _Fine:
     part: str
     name: str
     end: End
-
-
-@dataclass(frozen=True)
-class _Reached:
-    """The outside of a connector that levels above reach into a model for."""
-
-    end: Any
-
-
-def _at(reader: _Reader, end: Any) -> _Fine:
-    if not isinstance(end, _Reached):
-        return reader._end(end)
-    owner, name = owner_and_name(end.end)
-    route = () if owner is None else owner.route_from(reader.model._node) or ()
-    name = ".".join((*route, name))
-    return _Fine("", name, reader._gate(end.end, name))
 
 
 def _families(component: Component) -> Iterator[tuple[str, list[Component]]]:
@@ -239,15 +228,13 @@ def _icon(part: Component) -> Icon:
 
 
 def _kind_and_color(end: Any) -> tuple[Kind, str]:
-    if isinstance(end, _Reached):
-        end = end.end
     if isinstance(end, Connector):
         return "connector", end.COLOR
     return ("input" if isinstance(end.declaration, Input) else "output"), color_of(end.declaration)
 
 
 def _full_name(end: Any) -> str:
-    owner, name = owner_and_name(end.end if isinstance(end, _Reached) else end)
+    owner, name = owner_and_name(end)
     path = "" if owner is None else owner.path
     return f"{path}.{name}" if path else name
 

@@ -23,8 +23,8 @@ from acausal.codegen import Values
 from acausal.errors import (
     DataError,
     ExportError,
+    known_name,
     listing,
-    nearest,
     need_flag,
     shown,
     user_level,
@@ -181,10 +181,8 @@ def _content(
     content |= {f"sources/{file}": data.encode() for file, data in sources.items()}
     if fmi == "3.0":
         content["sources/buildDescription.xml"] = build_description(text.name, compiled)
-    if platforms is None:
-        return content | _library(text.name, sources, compiled, fmi)
-    for place in platforms:
-        library = build(text.name, sources, compiled, _command(place, fmi))
+    for place, command in _compilers(platforms, fmi):
+        library = build(text.name, sources, compiled, command)
         content[f"binaries/{place.folder}/{text.name}{place.ending}"] = library
     return content
 
@@ -242,22 +240,21 @@ def _experiment(system: System) -> tuple[float, ...]:
     return (float(start),) if stop is None else (float(start), float(stop))
 
 
-def _library(
-    name: str, sources: Mapping[str, str], compiled: Sequence[str], fmi: str
-) -> dict[str, bytes]:
-    """The library for this computer under its path in the FMU; none, with a warning, where it cannot be built."""
+def _compilers(
+    platforms: Sequence[Platform] | None, fmi: str
+) -> list[tuple[Platform, Sequence[str]]]:
+    """Platforms and their compilers; by default this computer's, or none, with a warning, where it has none."""
+    if platforms is not None:
+        return [(place, _command(place, fmi)) for place in platforms]
     place, command = this_platform(fmi), compiler()
-    if place is None or command is None:
-        missing = (
-            "there is no C compiler" if command is None else "FMI has no name for this platform"
-        )
-        warnings.warn(
-            f"export.fmu: {missing}, so the FMU holds sources only; its importer must compile them.",
-            stacklevel=user_level(),
-        )
-        return {}
-    library = build(name, sources, compiled, [command])
-    return {f"binaries/{place.folder}/{name}{place.ending}": library}
+    if place is not None and command is not None:
+        return [(place, [command])]
+    missing = "there is no C compiler" if command is None else "FMI has no name for this platform"
+    warnings.warn(
+        f"export.fmu: {missing}, so the FMU holds sources only; its importer must compile them.",
+        stacklevel=user_level(),
+    )
+    return []
 
 
 def _command(place: Platform, fmi: str) -> Sequence[str]:
@@ -291,8 +288,7 @@ def _checked_kinds(fmi: object, kinds: str | Sequence[str], step: float) -> tupl
         raise DataError(f"export.fmu: there is no fmi={shown(fmi)}; give '3.0' or '2.0'.")
     chosen = names_in(kinds, "export.fmu: kinds")
     for kind in chosen:
-        if kind not in KINDS:
-            raise DataError(f"export.fmu: there is no kind '{kind}'; {nearest(kind, KINDS)}")
+        known_name(kind, KINDS, "export.fmu: there is no kind")
     if not chosen:
         raise DataError(f"export.fmu: kinds=() leaves nothing to write; give {listing(KINDS)}.")
     if not isinstance(step, int | float) or not (0 < step < math.inf):
@@ -306,10 +302,7 @@ def _checked_platforms(names: Sequence[str] | None, fmi: str) -> tuple[Platform,
         return None
     found: dict[str, Platform] = {}
     for name in dict.fromkeys(names_in(names, "export.fmu: platforms")):
-        if name not in PLATFORMS:
-            raise DataError(
-                f"export.fmu: there is no platform '{name}'; {nearest(name, PLATFORMS)}"
-            )
+        known_name(name, PLATFORMS, "export.fmu: there is no platform")
         place = platform_named(name, fmi)
         if place is None:
             raise DataError(
@@ -328,8 +321,7 @@ def _known(inputs: Sequence[str] | None, known: Sequence[str]) -> tuple[str, ...
         return tuple(known)
     chosen = names_in(inputs, "export.fmu: inputs")
     for name in chosen:
-        if name not in known:
-            raise DataError(f"export.fmu: the model has no input '{name}'; {nearest(name, known)}")
+        known_name(name, known, "export.fmu: the model has no input")
     return chosen
 
 
@@ -340,8 +332,6 @@ def _wanted(outputs: Sequence[str] | None, system: System) -> tuple[str, ...]:
     for name in chosen:
         if name in system.inputs:
             raise DataError(f"export.fmu: '{name}' is an input; leave it out of outputs=[...].")
-        if name not in system.variables and not name.startswith("der("):
-            raise DataError(
-                f"export.fmu: the model has no variable '{name}'; {nearest(name, system.variables)}"
-            )
+        if not name.startswith("der("):
+            known_name(name, system.variables, "export.fmu: the model has no variable")
     return chosen

@@ -12,7 +12,7 @@ from jaxtyping import Array, Float
 
 from acausal.analysis import Calls, calls, target
 from acausal.codegen import Values
-from acausal.errors import DataError, nearest, shown
+from acausal.errors import DataError, known_name, shown
 from acausal.system import System
 
 Interval = tuple[float, float]
@@ -66,12 +66,9 @@ def watched(system: System, ranges: Ranges | None, function: str) -> Watch | Non
             f"export.{function}: ranges={shown(ranges)} are no intervals by network; give some such as "
             "{'spring_nn.net': (-0.02, 0.02)}, or fit.ranges."
         )
-    names = system.layout.module_names
+    refusal = f"export.{function}: ranges: there is no network"
     for name in ranges:
-        if name not in names:
-            raise DataError(
-                f"export.{function}: ranges: there is no network {shown(name)}; {nearest(name, names)}"
-            )
+        known_name(name, system.layout.module_names, refusal)
     found = calls(system, *ranges)
     bounds = {
         target(system, name): (name, _intervals(name, r, function)) for name, r in ranges.items()

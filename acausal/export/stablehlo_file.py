@@ -14,7 +14,7 @@ from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
 from acausal.analysis import Observer
-from acausal.errors import DataError, nearest, need_package, shown
+from acausal.errors import DataError, known_name, need_package, shown
 from acausal.export.target import Target, arguments, target_of
 from acausal.files import file_to_write, write_files
 from acausal.modeling import names_in
@@ -78,10 +78,7 @@ def stablehlo(
         )
     compiled_for = names_in(platforms, "export.stablehlo: platforms")
     for platform in compiled_for:
-        if platform not in PLATFORMS:
-            raise DataError(
-                f"export.stablehlo: there is no platform '{platform}'; {nearest(platform, PLATFORMS)}"
-            )
+        known_name(platform, PLATFORMS, "export.stablehlo: there is no platform")
     target = target_of(model, params, network, inputs, outputs, units, parameters, "stablehlo")
     call = target.call if batch is None else target.batch()
     shapes = [jax.ShapeDtypeStruct(s.shape, real) for s in arguments(target, batch, "stablehlo")]

@@ -15,7 +15,7 @@ from jax.extend.core import ClosedJaxpr
 
 from acausal._jax import need_known
 from acausal.analysis import Observer, ObserverMemory
-from acausal.errors import DataError, nearest, need_compiled, shown
+from acausal.errors import DataError, known_name, need_compiled, shown
 from acausal.export.needs import all_parameters, need_exportable
 from acausal.modeling import Component, ModuleCall, Reference, names_in
 from acausal.networks import EnergyLaw, law_of
@@ -102,7 +102,7 @@ def target_of(
                     "export: inputs=... names the arguments of a network; give network=..., too"
                 )
             return _of_system(model, given, outputs, parameters)
-        law = _network_named(model, given, network)
+        law = given[known_name(network, model.layout.module_names, "export: there is no network")]
         found = _called_with(model, network)
         names, output, known = found or (_arguments(law), "y", {})
         return _network(
@@ -196,14 +196,8 @@ def _of_system(
         dx, y = system.rates_and_read(outputs, values)
         return (dx, y) if system.states else (y,)
 
-    results = [
-        TargetPort("der(x)", p.shape, tuple(f"der({n})" for n in p.elements), _rates(system))
-        for p in ports
-        if p.name == "x"
-    ]
-    results += [
-        TargetPort("y", (len(outputs),), outputs, tuple(system.unit(n) for n in outputs))
-    ] * bool(outputs)
+    results = _vector("der(x)", tuple(f"der({n})" for n in system.states), system)
+    results += _vector("y", outputs, system)
     if not results:
         raise DataError("export: the model has no states; name its outputs=[...].")
     return Target(type(system.model).__name__, _flat(call, results), tuple(ports), tuple(results))
@@ -271,18 +265,6 @@ def _of_network(
     return Target(f"{kind} {network!r}"[:200], lambda *a: (law(*a),), ports, (result,))
 
 
-def _network_named(system: System, params: Mapping[str, Any], name: str) -> Any:
-    """A network by its name among the parameters.
-
-    Raises:
-        DataError: for an unknown name, or a parameter that is a number.
-    """
-    names = system.layout.module_names
-    if name not in names:
-        raise DataError(f"export: there is no network {shown(name)}; {nearest(name, names)}")
-    return params[name]
-
-
 def arguments(target: Target, batch: str | None, function: str) -> list[jax.ShapeDtypeStruct]:
     """Shapes of the arguments, with a symbolic leading one if there is a batch.
 
@@ -309,10 +291,6 @@ def traced(target: Target, batch: str | None, function: str) -> ClosedJaxpr:
 def _vector(name: str, elements: tuple[str, ...], system: System) -> list[TargetPort]:
     units = tuple(system.unit(e) for e in elements)
     return [TargetPort(name, (len(elements),), elements, units)] if elements else []
-
-
-def _rates(system: System) -> tuple[str, ...]:
-    return tuple(system.unit(f"der({name})") for name in system.states)
 
 
 def _flat(

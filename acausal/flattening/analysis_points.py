@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from acausal.errors import DeclarationError, nearest
+from acausal.errors import DeclarationError, known_name
 from acausal.flattening.connections import connection_sets, equalities, feeds
 from acausal.flattening.flat_model import FlatModel
 from acausal.modeling import names_in
@@ -22,7 +22,11 @@ def opened(model: FlatModel, names: str | Sequence[str]) -> tuple[FlatModel, tup
     layout = model.layout
     fed = feeds(layout, connection_sets(layout))
     known = {layout.variable(v): v for v in fed}
-    points = [_point(known, name) for name in names_in(names, "points")]
+    refusal = "points: no connection feeds a signal"
+    points = [
+        known[known_name(name, known, refusal, DeclarationError)]
+        for name in names_in(names, "points")
+    ]
     old: set[tuple[int, int]] = set()
     new: set[tuple[int, int]] = set()
     for point in points:
@@ -42,11 +46,3 @@ def opened(model: FlatModel, names: str | Sequence[str]) -> tuple[FlatModel, tup
         groups=(*kept, *equalities(sorted(new))),
         inputs=np.concatenate([model.inputs, np.asarray(points, dtype=np.int64)]),
     ), tuple(layout.variable(fed[point][0]) for point in points)
-
-
-def _point(known: dict[str, int], name: str) -> int:
-    if name in known:
-        return known[name]
-    raise DeclarationError(
-        f"points: no connection feeds a signal '{name}'; {nearest(name, list(known))}"
-    )

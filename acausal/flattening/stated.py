@@ -304,22 +304,11 @@ class _Sorting:
             n = self.known[key] = self._new("int", f"floor({number})")
             before, number = Previous(n), self._ticking(literal(number))
             ends = 2 * sp.floor((before + 1) / 2), 2 * sp.floor(before / 2) + 1
-            passed: list[Any] = []
-            for end in ends:
-                passed.append(r := self._new("bool"))
+            passed = [(end, self._new("bool")) for end in ends]
+            for end, r in passed:
                 self.guards.append(GuardStatement(r, number - end, f"floor({number})", False))
-            up = sp.Or(
-                *(
-                    sp.And(sp.Gt(e, before), sp.Gt(r, HALF))
-                    for e, r in zip(ends, passed, strict=True)
-                )
-            )
-            down = sp.Or(
-                *(
-                    sp.And(sp.Le(e, before), sp.Le(r, HALF))
-                    for e, r in zip(ends, passed, strict=True)
-                )
-            )
+            up = sp.Or(*(sp.And(sp.Gt(e, before), sp.Gt(r, HALF)) for e, r in passed))
+            down = sp.Or(*(sp.And(sp.Le(e, before), sp.Le(r, HALF)) for e, r in passed))
             value = sp.Piecewise(
                 (sp.floor(number + ROUNDING), sp.Gt(INITIAL, HALF)),
                 (sp.Max(before + 1, sp.floor(number)), up),

@@ -217,12 +217,10 @@ class Template(LeavesCaches):
 
     def weights(self, column: int) -> tuple[float, ...] | None:
         """Weights whose sum over the other slots is this one; None for a template, see `solved`."""
-        del column
         return None
 
     def split(self, inside: tuple[bool, ...]) -> None:
         """None: a template reads variables outside of a loop slot by slot. See `Sum.split`."""
-        del inside
 
     @cache
     def _deciding(self) -> set[Any]:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from acausal.errors import DeclarationError, nearest, need_flag
+from acausal.errors import DeclarationError, known_name, need_flag
 from acausal.fmu.archive import read
 from acausal.fmu.description import REAL, Conversion, Description, FMUVariable, read_description
 from acausal.fmu.fmu_view import as_html, as_text
@@ -21,6 +21,7 @@ from acausal.modeling import (
     Component,
     Declaration,
     Discrete,
+    DiscreteOutput,
     Eq,
     GivenModule,
     Input,
@@ -46,14 +47,10 @@ REACHED, COMPLETED, TAKEN = "fmu.reached", "fmu.completed", "fmu.taken"
 """Names of what the model knows of the FMU's events."""
 
 
-class _Held(Discrete, Output):
-    """An output that is read at communication points and held between them."""
-
-
 class _Earlier(Component):
     """An input of a co-simulation as it was one communication point before."""
 
-    u, history, y = Input(), Input(kind="int"), _Held()
+    u, history, y = Input(), Input(kind="int"), DiscreteOutput()
 
     def equations(self) -> Iterable[Eq]:
         """At a communication point the history changes."""
@@ -140,10 +137,7 @@ class FMU(Component):
         Raises:
             DeclarationError: for any other name.
         """
-        if name not in self._names:
-            raise DeclarationError(
-                f"{self._node.label} has no '{name}': {nearest(name, list(self._names))}"
-            )
+        known_name(name, self._names, f"{self._node.label} has no", DeclarationError)
         return vars(self)[self._names[name]]
 
     def __repr__(self) -> str:
@@ -164,15 +158,12 @@ class FMU(Component):
             name = name_of(v)
             limits = sorted(map(v.conversion.to_model, (v.minimum, v.maximum)))
             low, high = (None if np.isinf(limit) else limit for limit in limits)
-            unit = v.conversion.unit
-            declared = Parameter(unit=unit, min=low, max=high, shape=v.shape, doc=v.text)
-            self._add_declaration(name, declared)
+            self._add_declaration(name, _declared(Parameter, v, min=low, max=high))
             self.modify(**{self._names[name]: chosen.values.get(v.name, starts(v))})
         for v in chosen.inputs:
             if v.name not in chosen.values:
-                given, unit = (None if v.start is None else starts(v)), v.conversion.unit
-                declared = Input(kind=_kind(v), default=given, unit=unit, shape=v.shape, doc=v.text)
-                self._add_declaration(v.name, declared)
+                given = None if v.start is None else starts(v)
+                self._add_declaration(v.name, _declared(Input, v, kind=_kind(v), default=given))
         if self._part.kind == "cs":
             self._declare_held(chosen.results)
         else:
@@ -180,15 +171,9 @@ class FMU(Component):
 
     def _declare_held(self, results: Iterable[FMUVariable]) -> None:
         for v in results:
-            declared = _Held(
-                _nested(v.starts, v.shape or ()),
-                kind=_kind(v),
-                unit=v.conversion.unit,
-                shape=v.shape,
-                doc=v.text,
-            )
-            self._add_declaration(v.name, declared)
-        kind = _Held if self._part.memory else Discrete
+            start = _nested(v.starts, v.shape or ())
+            self._add_declaration(v.name, _declared(DiscreteOutput, v, start=start, kind=_kind(v)))
+        kind = DiscreteOutput if self._part.memory else Discrete
         self._add_declaration(HISTORY, kind(0, kind="int", doc="number of the FMU's history"))
         self._add_declaration(REACHED, Discrete(0, kind="int", doc="the same before new inputs"))
         if self._part.memory:
@@ -197,7 +182,7 @@ class FMU(Component):
     def _declare_memory(self, n: int) -> None:
         """Inputs at the last communication point, and one part for each at a point before: many, but of one form."""
         self._add_declaration(
-            TAKEN, _Held(shape=(n,), doc="inputs at the last communication point")
+            TAKEN, DiscreteOutput(shape=(n,), doc="inputs at the last communication point")
         )
         self.earlier = [_Earlier() for _ in range(n * (self._part.memory - 1))]
         for source, part in zip(
@@ -213,21 +198,13 @@ class FMU(Component):
             start = f"fmu_start_{first}"
             vars(self)[start] = self._starts(first, v)
             kind = Output if v.name in seen else Variable
-            declared = kind(
-                start=start,
-                unit=v.conversion.unit,
-                nominal=abs(v.conversion.factor) * v.nominal,
-                state="always",
-                shape=v.shape,
-                doc=v.text,
-            )
+            nominal = abs(v.conversion.factor) * v.nominal
+            declared = _declared(kind, v, start=start, nominal=nominal, state="always")
             self._add_declaration(v.name, declared)
             first += v.size
         for v in results:
             if v.name not in self._names:
-                self._add_declaration(
-                    v.name, Output(unit=v.conversion.unit, shape=v.shape, doc=v.text)
-                )
+                self._add_declaration(v.name, _declared(Output, v))
         if self._has_events:
             self._add_declaration(
                 HISTORY, Discrete(0, kind="int", doc="number of the FMU's history")
@@ -352,6 +329,11 @@ class FMU(Component):
             states = found.first_states if found is not None else [0.0] * part.n
             each = states[first : first + variable.size]
         return _nested([variable.conversion.to_model(e) for e in each], variable.shape or ())
+
+
+def _declared(role: type[Declaration], v: FMUVariable, **more: Any) -> Declaration:
+    """The declaration of a variable, in the model's unit."""
+    return role(unit=v.conversion.unit, shape=v.shape, doc=v.text, **more)
 
 
 def _kind(variable: FMUVariable) -> Literal["bool", "real", "int"]:

@@ -6,6 +6,7 @@ import ctypes as C
 from collections import deque
 from collections.abc import Sequence
 from functools import cached_property
+from itertools import groupby
 from typing import Any
 
 from acausal.errors import SimulationError, shortened
@@ -45,19 +46,12 @@ class Variables:
         self.size = sum(v.size for v in variables)
         self.blocks: list[tuple[str, Any, Any, int, int, int]] = []
         first = 0
-        for v in variables:
-            word, kind = kind_of(version, v.type)
-            last = self.blocks[-1] if self.blocks else None
-            if last is not None and last[0] == word:
-                references = (*last[2], v.reference)
-                self.blocks[-1] = (word, kind, references, last[3], last[4] + v.size, 0)
-            else:
-                self.blocks.append((word, kind, (v.reference,), first, v.size, 0))
-            first += v.size
-        self.blocks = [
-            (word, kind, (C.c_uint32 * len(r))(*r), start, size, len(r))
-            for word, kind, r, start, size, _ in self.blocks
-        ]
+        for (word, kind), run in groupby(variables, lambda v: kind_of(version, v.type)):
+            some = list(run)
+            references = (C.c_uint32 * len(some))(*(v.reference for v in some))
+            size = sum(v.size for v in some)
+            self.blocks.append((word, kind, references, first, size, len(some)))
+            first += size
 
 
 def kind_of(version: str, name: str) -> tuple[str, Any]:
@@ -148,33 +142,30 @@ class SharedLibrary:
         Raises:
             FMUError: if the FMU refuses, as it does for a wrong GUID.
         """
-        d, resources = self.description, self.folder.path / "resources"
-        name, token = self.name, d.token.encode()
-        text, boolean = C.c_char_p, C.c_int if self.is_2 else C.c_bool
+        d, resources, steps = self.description, self.folder.path / "resources", self.kind == "cs"
+        p, text, boolean = C.c_void_p, C.c_char_p, C.c_int if self.is_2 else C.c_bool
+        name, token = (text, self.name), (text, d.token.encode())
         if self.is_2:
-            make = self.function(
-                "Instantiate", text, C.c_int, text, text, C.c_void_p, boolean, boolean, result=C.c_void_p
-            )  # fmt: skip
-            place = resources.as_uri().encode()
-            made = make(name, int(self.kind == "cs"), token, place, C.addressof(self._log), 0, 1)
-        elif self.kind == "cs":
-            more = (boolean, boolean, C.c_void_p, C.c_size_t, C.c_void_p, C.c_void_p, C.c_void_p)
-            make = self.function(
-                "InstantiateCoSimulation", text, text, text, boolean, boolean, *more, result=C.c_void_p
-            )  # fmt: skip
-            log = C.cast(self._log, C.c_void_p)
-            early = d.returns_early
-            place = f"{resources}/".encode()
-            made = make(
-                name, token, place, False, True, d.event_mode, early, None, 0, None, log, None
-            )
+            word, place = "", (text, resources.as_uri().encode())
+            log = (p, C.addressof(self._log))
+            given = [name, (C.c_int, int(steps)), token, place, log, (boolean, 0), (boolean, 1)]
         else:
-            make = self.function(
-                "InstantiateModelExchange", text, text, text, boolean, boolean, C.c_void_p, C.c_void_p,
-                result=C.c_void_p,
-            )  # fmt: skip
-            place = f"{resources}/".encode()
-            made = make(name, token, place, False, True, None, C.cast(self._log, C.c_void_p))
+            word, place = (
+                "CoSimulation" if steps else "ModelExchange",
+                (text, f"{resources}/".encode()),
+            )
+            nothing, log = (p, None), (p, C.cast(self._log, p))
+            given = [name, token, place, (boolean, False), (boolean, True)]
+            if steps:
+                given += [
+                    (boolean, d.event_mode),
+                    (boolean, d.returns_early),
+                    nothing,
+                    (C.c_size_t, 0),
+                ]
+            given += [nothing, log, *([nothing] if steps else [])]
+        kinds, values = zip(*given, strict=True)
+        made = self.function(f"Instantiate{word}", *kinds, result=p)(*values)
         if not made:
             raise FMUError(f"FMU: '{d.model}' gives no instance{self.said()}.")
         return int(made)

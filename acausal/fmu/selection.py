@@ -6,7 +6,7 @@ import math
 from numbers import Real
 from typing import Any
 
-from acausal.errors import DeclarationError, nearest, need_whole, shown
+from acausal.errors import DeclarationError, known_name, need_whole, shown
 from acausal.fmu.description import NUMBERS, REAL, STRUCTURAL, Description, FMUVariable, Interface
 
 
@@ -80,11 +80,9 @@ class Chosen:
         observe: tuple[str, ...],
     ) -> None:
         known = description.variables
+        refusal = f"FMU: '{description.model}' has no variable"
         for name in (*values, *observe):
-            if name not in known:
-                raise DeclarationError(
-                    f"FMU: '{description.model}' has no variable {shown(name)}: {nearest(str(name), list(known))}"
-                )
+            known_name(name, known, refusal, DeclarationError)
         self.values = values
         self.settings = {n: v for n, v in values.items() if _is_setting(known[n])}
         starts = [known[n] for n in values if known[n] not in description.parameters]

@@ -94,15 +94,8 @@ def _states(initial: Initializer, packed: Packed) -> Iterator[tuple[str, Row]]:
     for name, (variable, _), fixed, start in zip(
         initial.names, conditions.start_of, conditions.fixed.tolist(), starts, strict=True
     ):
-        origin = "fixed" if fixed else "guess"
-        yield (
-            name,
-            {
-                **_variable(initial.reduced.model, "state", name, variable),
-                "start": start,
-                "origin": origin,
-            },
-        )
+        row = _variable(initial.reduced.model, "state", name, variable)
+        yield name, {**row, "start": start, "origin": "fixed" if fixed else "guess"}
 
 
 def _discrete(initial: Initializer, packed: Packed) -> Iterator[tuple[str, Row]]:

@@ -16,9 +16,7 @@ from acausal.modelica.syntax import (
     Branches,
     Connect,
     Do,
-    DottedName,
     FunctionCall,
-    LiteralConstant,
     Loop,
     Statement,
 )
@@ -134,23 +132,15 @@ class Connecting(Interpreter):
             return
         left = edge.ends[0]
         node = left.node if isinstance(left, Redundant) else ends[0].node
-        constraint = node.member("equalityConstraint")
-        name = DottedName(("equalityConstraint",), {}, edge.at)
-        residual = self.inlined(
-            constraint, FunctionCall(name, [LiteralConstant(e, edge.at) for e in ends], {}, edge.at)
-        )[0]
+        residual = self.called(node.member("equalityConstraint"), ends, {})
         yield from self.pairs(residual, np.zeros(np.shape(residual), dtype=object))
 
     def repeated(self, loop: Loop) -> Iterator[None]:
         """Once for all values of the loop's variables."""
-        frame = self.frame
         if loop.condition is not None:
             raise self.wrong("'while' stands in algorithms only")
-        for values in self.iterated(loop.iterators):
-            self.frame = frame.with_local(**values)
+        for _ in self.iterated(loop.iterators):
             yield
-            self.frame = frame
-        self.frame = frame
 
     def _chosen(self, statement: Branches) -> list[Statement]:
         """The branch that is taken, which has to be known."""

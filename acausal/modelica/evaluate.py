@@ -130,7 +130,7 @@ class Evaluator(Operators):
         return array_of([begin + i * by for i in range(count)])
 
     def iterated(self, iterators: list[tuple[str, Expression | None]]) -> Iterator[dict[str, Any]]:
-        """The values of loop variables, one after the other; later ones run faster."""
+        """The values of loop variables, which expressions see meanwhile; later ones run faster."""
         if not iterators:
             yield {}
             return
@@ -159,17 +159,7 @@ class Evaluator(Operators):
                 Comprehension(expression.value, outer, expression.at), [last], expression.at
             )
             return self.comprehension(expression)
-        return as_array(
-            [self._within(values, expression.value) for values in self.iterated(iterators)]
-        )
-
-    def _within(self, values: dict[str, Any], expression: Expression) -> Any:
-        frame = self.frame
-        self.frame = frame.with_local(**values)
-        try:
-            return self.value(expression)
-        finally:
-            self.frame = frame
+        return as_array([self.value(expression.value) for _ in self.iterated(iterators)])
 
     def subscripted(self, value: Any, subscripts: list[Expression]) -> Any:
         """Some elements of an array, or of a list of parts."""

@@ -124,27 +124,21 @@ class Expressions(Tokens):
             i += 1
         return found
 
-    def reference(self) -> DottedName:
-        """``a.b[2].c``; a leading dot is kept as an empty word."""
+    def reference(self, subscripted: bool = True) -> DottedName:
+        """``a.b[2].c``, perhaps with subscripts; a leading dot is kept as an empty word."""
         at = self.at
         words: list[str] = [""] if self.accept(".") else []
         subscripts: dict[int, list[Expression]] = {}
         while True:
             words.append(self.identifier())
-            if self.texts[self.position] == "[":
+            if subscripted and self.texts[self.position] == "[":
                 subscripts[len(words) - 1] = self.subscripts()
             if not self.accept("."):
                 return DottedName(tuple(words), subscripts, at)
 
     def dotted(self) -> DottedName:
         """The name of a class."""
-        at = self.at
-        words: list[str] = [""] if self.accept(".") else []
-        words.append(self.identifier())
-        while self.texts[self.position] == ".":
-            self.position += 1
-            words.append(self.identifier())
-        return DottedName(tuple(words), {}, at)
+        return self.reference(subscripted=False)
 
     def subscripts(self) -> list[Expression]:
         """``[1, :, end]``."""

@@ -381,14 +381,14 @@ class Interpreter(Algorithms):
         function = self._of_class(node, "constructor", given, named)
         if function is None:
             return self.record_of(node, given, named)
-        return self._called(function, given, named)
+        return self.called(function, given, named)
 
     def _operator(self, sign: str, values: Sequence[Any]) -> Any:
         node: ClassNode = next(v.node for v in values if isinstance(v, Record))
         for given in (list(values), [self._made(node, v) for v in values]):
             function = self._of_class(node, f"'{sign}'", given, {})
             if function is not None:
-                return self._called(function, given, {})
+                return self.called(function, given, {})
         raise self.wrong(f"'{node.full}' has no operator '{sign}' for {len(values)} operand(s)")
 
     def _dot(self, left: Any, right: Any) -> Any:
@@ -398,7 +398,7 @@ class Interpreter(Algorithms):
             given = [each(lambda v: self._made(node, v), vector) for vector in (left, right)]
             function = self._of_class(node, "'*'", given, {})
             if function is not None:
-                return self._called(function, given, {})
+                return self.called(function, given, {})
         self.need_factors(left, right)
         rows = left.reshape(-1, left.shape[-1])
         columns = right.reshape(right.shape[0], -1).T
@@ -416,7 +416,7 @@ class Interpreter(Algorithms):
     def _made(self, node: ClassNode, value: Any) -> Any:
         """A number as a record, where a constructor takes one; others as they are."""
         function = None if is_record(value) else self._of_class(node, "constructor", [value], {})
-        return value if function is None else self._called(function, [value], {})
+        return value if function is None else self.called(function, [value], {})
 
     def _of_class(
         self, node: ClassNode, word: str, given: Sequence[Any], named: dict[str, Any]
@@ -447,7 +447,8 @@ class Interpreter(Algorithms):
             value
         )
 
-    def _called(self, function: ClassNode, given: Sequence[Any], named: dict[str, Any]) -> Any:
+    def called(self, function: ClassNode, given: Sequence[Any], named: dict[str, Any]) -> Any:
+        """The result of a function of values."""
         arguments: list[Expression] = [LiteralConstant(v, self.at) for v in given]
         more: dict[str, Expression] = {k: LiteralConstant(v, self.at) for k, v in named.items()}
         name = DottedName((function.definition.name,), {}, self.at)

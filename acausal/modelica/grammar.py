@@ -32,9 +32,12 @@ KINDS = frozenset(
     ("class", "model", "record", "block", "connector", "type", "package", "function", "operator")
 )
 CLASS_PREFIXES = KINDS | {"partial", "expandable", "encapsulated", "pure", "impure"}
-SECTIONS = frozenset(
-    ("public", "protected", "equation", "algorithm", "initial", "external", "annotation", "end", "")
-)
+ENDS = frozenset((
+    "public", "protected", "equation", "algorithm", "initial", "external", "annotation", "end", "else", "elseif",
+    "elsewhen", "",
+))  # fmt: skip
+"""What ends the statements of a section or a branch; but `INITIAL` begins one."""
+INITIAL = ["initial", "("]
 
 
 def parse(source: Source) -> tuple[str, list[ClassDefinition]]:
@@ -379,13 +382,9 @@ class _Reader(Expressions):
         """Up to a keyword that begins something else."""
         self.deeper()
         found: list[Statement] = []
-        while self.peek not in SECTIONS and self.peek not in ("else", "elseif", "elsewhen"):
+        while self.peek not in ENDS or self.texts[self.position : self.position + 2] == INITIAL:
             found.append(self._statement(is_equation))
             self.take(";")
-        if self.peek == "initial" and self.texts[self.position + 1] == "(":
-            found.append(self._statement(is_equation))
-            self.take(";")
-            found += self.statements(is_equation)
         self.depth -= 1
         return found
 

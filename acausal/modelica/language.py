@@ -13,7 +13,7 @@ import sympy as sp
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.overconstrained import is_root, is_rooted
 from acausal.modelica.resources import path_of
-from acausal.modelica.syntax import Comprehension, Expression, FunctionCall
+from acausal.modelica.syntax import Comprehension, FunctionCall
 from acausal.modelica.values import (
     Record,
     array_of,
@@ -42,25 +42,21 @@ from acausal.modeling import (
 from acausal.netlist import function as known_function
 
 
-def _without_events(self: Evaluator, expression: Expression) -> Any:
-    frame = self.frame
-    self.frame = replace(frame, events=False)
-    try:
-        return self.value(expression)
-    finally:
-        self.frame = frame
+def _without_events(count: int) -> Callable[[Evaluator, FunctionCall], Any]:
+    """The last of so many arguments, whose conditions are no events."""
 
+    def applied(self: Evaluator, call: FunctionCall) -> Any:
+        if len(call.arguments) != count:
+            name = call.function.words[-1]
+            raise self.wrong(f"{name}(...) takes {count} argument{'s' * (count != 1)}")
+        frame = self.frame
+        self.frame = replace(frame, events=False)
+        try:
+            return self.value(call.arguments[-1])
+        finally:
+            self.frame = frame
 
-def _smooth(self: Evaluator, call: FunctionCall) -> Any:
-    if len(call.arguments) != 2:
-        raise self.wrong("smooth(...) takes 2 arguments")
-    return _without_events(self, call.arguments[1])
-
-
-def _no_event(self: Evaluator, call: FunctionCall) -> Any:
-    if len(call.arguments) != 1:
-        raise self.wrong("noEvent(...) takes 1 argument")
-    return _without_events(self, call.arguments[0])
+    return applied
 
 
 def _homotopy(self: Evaluator, call: FunctionCall) -> Any:
@@ -364,7 +360,7 @@ def _eigenvalues(matrix: Any) -> Any:
 
 SPECIAL: dict[str, Callable[[Evaluator, FunctionCall], Any]] = {
     "der": _der, "pre": _mapped(pre), "edge": _edge, "change": _mapped(change),
-    "initial": _initial, "sample": _sample, "noEvent": _no_event, "smooth": _smooth,
+    "initial": _initial, "sample": _sample, "noEvent": _without_events(1), "smooth": _without_events(2),
     "homotopy": _homotopy, "semiLinear": _semi_linear,
     "sum": _reduction("sum"), "product": _reduction("product"), "min": _reduction("min"), "max": _reduction("max"),
     "size": _size, "ndims": lambda self, call: len(np.shape(self.arguments(call, 1)[0])),

@@ -20,6 +20,7 @@ from acausal.modelica.values import array_of, each, elements, nested, type_of, w
 from acausal.modelica.views import Entry
 from acausal.modeling import (
     Discrete,
+    DiscreteOutput,
     InitialParameter,
     Input,
     Output,
@@ -29,10 +30,6 @@ from acausal.modeling import (
 )
 
 KINDS: dict[str, Any] = {"Real": "real", "Boolean": "bool"}
-
-
-class DiscreteOutput(Discrete, Output):
-    """An output signal that changes at events only."""
 
 
 def declare(
@@ -260,14 +257,8 @@ def _spread(entry: Entry, name: str, given: Any, sizes: list[int], bound: Bound 
     """An array of the declared size; a single value goes to all elements."""
     if isinstance(given, np.ndarray):
         if list(given.shape) != sizes:
-            node, at = (
-                (entry.node, entry.declared.at)
-                if bound is None
-                else (bound.frame.node, bound.expression.at)
-            )
-            raise node.wrong(
-                at, f"'{name}' has the size {sizes}, its value has {list(given.shape)}"
-            )
+            reason = f"'{name}' has the size {sizes}, its value has {list(given.shape)}"
+            raise (bound or entry).wrong(reason)
         return given
     found = np.empty(sizes, dtype=object)
     found[...] = given

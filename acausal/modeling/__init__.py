@@ -24,6 +24,7 @@ from acausal.modeling.declarations import (
     TEAR_SELECT as TEAR_SELECT,
     Declaration as Declaration,
     Discrete as Discrete,
+    DiscreteOutput as DiscreteOutput,
     Flow as Flow,
     InitialParameter as InitialParameter,
     Input as Input,

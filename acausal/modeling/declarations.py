@@ -49,7 +49,7 @@ class Start:
             raise DeclarationError(f"state={shown(state)} must be one of {', '.join(STATE_SELECT)}")
         if self.fixed is not None:
             need_flag(self.fixed, "fixed", DeclarationError)
-        if self.nominal is not None and not _is_number(self.nominal):
+        if self.nominal is not None and not is_number(self.nominal):
             raise DeclarationError(f"nominal={shown(self.nominal)} must be a number")
 
 
@@ -240,7 +240,8 @@ class Input(Variable):
         self.kind, self.default = kind, default
 
 
-def _is_number(value: Any) -> bool:
+def is_number(value: Any) -> bool:
+    """Whether a value, which is no text, can be read as a finite number."""
     try:
         return not isinstance(value, str | bytes) and math.isfinite(float(value))
     except (TypeError, ValueError, OverflowError):
@@ -256,6 +257,10 @@ def _are_numbers(value: Any) -> bool:
 
 class Output(Variable):
     """A causal signal that leaves."""
+
+
+class DiscreteOutput(Discrete, Output):
+    """An output that changes at events only."""
 
 
 class Option(Declaration):

@@ -15,7 +15,15 @@ from sympy.logic.boolalg import Boolean, BooleanAtom, BooleanFunction
 from acausal.errors import DeclarationError, shown
 from acausal.modeling.declarations import DependentParameter, Discrete, InitialParameter, Variable
 from acausal.modeling.functions import Floored, floor
-from acausal.modeling.symbols import HALF, Compared, Eq, Reference, number_or_expression, time
+from acausal.modeling.symbols import (
+    HALF,
+    Compared,
+    Eq,
+    RealFunction,
+    Reference,
+    number_or_expression,
+    time,
+)
 
 INITIAL = sp.Symbol("initial()", real=True)
 """1 while initial values are being found, else 0."""
@@ -66,16 +74,13 @@ class Tick(sp.Symbol):
         return f"sample({printer._print(self.start)}, {printer._print(self.period)})"
 
 
-class Watched(sp.Function):
+class Watched(RealFunction):
     """``Watched(condition, value, otherwise, always)``: a case distinction whose condition is an event.
 
     With ``always`` 0 it is an event only in a model that has others, too.
     """
 
     nargs = 4
-
-    def _eval_is_real(self) -> bool:
-        return True
 
     def _sympystr(self, printer: Any) -> str:
         return printer._print(literal(self))

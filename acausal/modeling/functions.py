@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.modeling.symbols import ModuleCall, number_or_expression, time
+from acausal.modeling.symbols import ModuleCall, RealFunction, number_or_expression, time
 
 
 def _of_expressions(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -78,7 +78,7 @@ class sign(sp.sign):  # noqa: N801 (a mathematician's name)
         return sp.S.Zero
 
 
-class Prescribed(sp.Function):
+class Prescribed(RealFunction):
     """``Prescribed(n, time, q, qd, ...)``: q's n-th derivative, which is the n-th of the signals after it."""
 
     def fdiff(self, argindex: int = 1) -> Any:
@@ -89,9 +89,6 @@ class Prescribed(sp.Function):
             return sp.S.Zero
         last = order + 1 == len(signals) - 1
         return signals[-1] if last else Prescribed(order + 1, time, *signals)
-
-    def _eval_is_real(self) -> bool:
-        return True
 
     def _sympystr(self, printer: Any) -> str:
         parts: Any = self.args
@@ -152,7 +149,7 @@ class floor(sp.floor):  # noqa: N801 (a mathematician's name)
         return sp.S.Zero
 
 
-class Floored(sp.Function):
+class Floored(RealFunction):
     """``Floored(number, always)``: the greatest integer not above a number, whose jumps are events.
 
     With ``always`` 0 they are events only in a model that has others, too.
@@ -164,9 +161,6 @@ class Floored(sp.Function):
     def eval(cls, *args: sp.Expr) -> Any:
         """The integer itself, of a number that is known."""
         return floor(args[0]) if args[0].is_number else None
-
-    def _eval_is_real(self) -> bool:
-        return True
 
     def _sympystr(self, printer: Any) -> str:
         return printer._print(floor(self.args[0]))

@@ -22,6 +22,7 @@ from acausal.modeling.declarations import (
     Parameter,
     Start,
     Variable,
+    is_number,
 )
 from acausal.modeling.node import Node
 from acausal.modeling.symbols import Eq, ModuleReference, Reference
@@ -127,21 +128,16 @@ def _check_start(where: str, value: Any) -> None:
     if value is None:
         return
     if isinstance(value, sp.Expr) and not value.is_number:
-        if all(
-            isinstance(r, Reference) and isinstance(r.declaration, Parameter)
-            for r in value.free_symbols
-        ):
+        if _reads_parameters_alone(value):
             return
         raise DeclarationError(f"{where}: only parameters may stand in a start, got {value}")
-    if isinstance(value, str | bytes | bool) or not _is_finite(value):
+    if isinstance(value, bool) or not is_number(value):
         raise DeclarationError(f"{where}: a start is a finite number, got {shown(value)}")
 
 
-def _is_finite(value: Any) -> bool:
-    try:
-        return math.isfinite(float(value))
-    except (TypeError, ValueError, OverflowError):
-        return False
+def _reads_parameters_alone(value: sp.Expr) -> bool:
+    symbols = value.free_symbols
+    return all(isinstance(r, Reference) and isinstance(r.declaration, Parameter) for r in symbols)
 
 
 def is_open(value: Any) -> bool:
@@ -156,14 +152,12 @@ def is_open(value: Any) -> bool:
 
 
 def value_of(where: str, declaration: Parameter, value: Any) -> Any:
-    """The value that a modifier gives: a finite number in range, an expression of parameters, or an array of these."""
-    if declaration.shape is not None:
-        return values_of(where, declaration, value)
-    return _number(where, declaration, value)
+    """The value that a modifier gives: a finite number in range, an expression of parameters, or an array of these.
 
-
-def values_of(where: str, declaration: Parameter, value: Any) -> np.ndarray:
-    """A vector or matrix of values; its size is checked when the model is flattened."""
+    The size of an array is checked when the model is flattened.
+    """
+    if declaration.shape is None:
+        return _number(where, declaration, value)
     check_nested(value, where)
     values = np.asarray(value, dtype=object)
     check_size(values.size, where)
@@ -175,13 +169,7 @@ def values_of(where: str, declaration: Parameter, value: Any) -> np.ndarray:
 
 def _number(where: str, declaration: Parameter, value: Any) -> Any:
     if isinstance(value, sp.Expr) and not value.is_number:
-        foreign = [r for r in value.free_symbols if not isinstance(r, Reference)]
-        unsteady = [
-            r
-            for r in value.free_symbols
-            if isinstance(r, Reference) and not isinstance(r.declaration, Parameter)
-        ]
-        if foreign or unsteady:
+        if not _reads_parameters_alone(value):
             raise DeclarationError(
                 f"{where} = {value}: only parameters may stand in a parameter's value"
             )

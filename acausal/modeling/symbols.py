@@ -156,7 +156,14 @@ class Reference(Compared):
         return printer._print(sp.Symbol(self.path))
 
 
-class der(sp.Function):  # noqa: N801 (Modelica's name)
+class RealFunction(sp.Function):
+    """A function whose values are real."""
+
+    def _eval_is_real(self) -> bool:
+        return True
+
+
+class der(RealFunction):  # noqa: N801 (Modelica's name)
     """Time derivative of a variable, or of an expression of variables."""
 
     nargs = 1
@@ -167,9 +174,6 @@ class der(sp.Function):  # noqa: N801 (Modelica's name)
             cls, number_or_expression(argument, "what der(...) differentiates"), **options
         )
 
-    def _eval_is_real(self) -> bool:
-        return True
-
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """Refused: total derivatives are taken when equations become templates."""
         raise DeclarationError(
@@ -177,7 +181,7 @@ class der(sp.Function):  # noqa: N801 (Modelica's name)
         )
 
 
-class ModuleCall(sp.Function):
+class ModuleCall(RealFunction):
     """A callable parameter applied: ``ModuleCall(module, orders, *args)``.
 
     ``orders`` counts, per argument, how often the function is differentiated, so that sympy can carry
@@ -197,9 +201,6 @@ class ModuleCall(sp.Function):
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         terms = [self.fdiff(i) * a.diff(s) for i, a in enumerate(self._parts[2:], start=3)]
         return sp.Add(*terms)
-
-    def _eval_is_real(self) -> bool:
-        return True
 
     def _sympystr(self, printer: Any) -> str:
         module, orders, *args = self._parts

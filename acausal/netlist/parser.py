@@ -179,7 +179,7 @@ class Reader(Grammar, Arithmetic):
             self.take(")")
             return value
         if token == "{":
-            return self._list("}")
+            return self._list("}", self.expression)
         if token == "[":
             return self._matrix()
         raise self.wrong(
@@ -209,12 +209,7 @@ class Reader(Grammar, Arithmetic):
     def call(self, name: str) -> Any:
         """The value of a call, whose name has been read."""
         self.take("(")
-        given: list[tuple[str, Any]] = []
-        if self.peek != ")":
-            given.append(self._argument())
-            while self.accept(","):
-                given.append(self._argument())
-        self.take(")")
+        given = self._list(")", self._argument)
         known = self.function(name)
         if known is None:
             return self._record(name, given)
@@ -266,12 +261,12 @@ class Reader(Grammar, Arithmetic):
         except (TypeError, ValueError):
             raise self.wrong(f"{name} does not take these arguments") from None
 
-    def _list(self, closing: str) -> list[Any]:
+    def _list(self, closing: str, read: Callable[[], Any]) -> list[Any]:
         values: list[Any] = []
         if self.peek != closing:
-            values.append(self.expression())
+            values.append(read())
             while self.accept(","):
-                values.append(self.expression())
+                values.append(read())
         self.take(closing)
         return values
 

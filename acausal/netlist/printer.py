@@ -39,9 +39,6 @@ class _Printer(StrPrinter):
     def _print_Float(self, expr: sp.Float) -> str:
         return repr(float(expr))
 
-    def _print_Rational(self, expr: sp.Rational) -> str:
-        return f"{expr.p}/{expr.q}"
-
     def _print_Exp1(self, expr: Any) -> Any:
         return "exp(1)"
 

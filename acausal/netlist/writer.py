@@ -30,7 +30,7 @@ from acausal.modeling import (
 )
 from acausal.netlist.file import EXPERIMENT_KEYS, NetlistError, within
 from acausal.netlist.library import Library
-from acausal.netlist.model import START_KEYS, Netlist, arguments_of, inherited, state
+from acausal.netlist.model import START_KEYS, FileRecord, Netlist, arguments_of, inherited, state
 from acausal.netlist.printer import written
 
 LEADING = ("start_time", "stop_time", "compare")
@@ -54,12 +54,12 @@ class Writer:
         Raises:
             NetlistError: in one sentence, for what a file cannot hold.
         """
-        read = model if isinstance(model, Netlist) else None
-        if read is None:
+        file, is_read = _file(model), isinstance(model, Netlist)
+        if not is_read:
             _check_statements(model)
-        experiment = read._file.experiment if read else {}
+        experiment = file.experiment
         connectors = self._connectors(model)
-        placed = {n: {"class": connectors.pop(n)} for n in (read._file.placed if read else ())}
+        placed = {n: {"class": connectors.pop(n)} for n in file.placed}
         parts = {
             name: self._part(model, name, part, _inner(stated, name))
             for name, part in model._node.children.items()
@@ -67,14 +67,14 @@ class Writer:
         sections = {
             "parameters": self._parameters(model),
             "connectors": connectors,
-            "variables": self._variables(read) if read else {},
+            "variables": self._variables(model),
             "components": {**placed, **parts},
             "connections": _connections(model),
-            "equations": [text for text, _ in read._file.equations] if read else [],
-            "initial_equations": [text for text, _ in read._file.initial] if read else [],
+            "equations": [text for text, _ in file.equations],
+            "initial_equations": [text for text, _ in file.initial],
         }
         document: dict[str, Any] = {}
-        if not read or model._node.title:
+        if not is_read or model._node.title:
             document["model"] = model._node.title or type(model).__name__
         document |= {key: experiment[key] for key in LEADING if key in experiment}
         document |= {key: section for key, section in sections.items() if section}
@@ -88,8 +88,7 @@ class Writer:
 
     def _parameters(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}
-        texts = model._file.texts if isinstance(model, Netlist) else {}
-        for (part, name), (raw, before) in texts.items():
+        for (part, name), (raw, before) in _file(model).texts.items():
             if not part:
                 kept = _same(before, state(model, name))
                 found[name] = raw if kept else self._parameter(model, name)
@@ -126,10 +125,10 @@ class Writer:
             else text
         )
 
-    def _variables(self, model: Netlist) -> dict[str, Any]:
+    def _variables(self, model: Component) -> dict[str, Any]:
         """The variables of the file, with the starts that they have now."""
         found: dict[str, Any] = {}
-        for name, (raw, before) in model._file.variables.items():
+        for name, (raw, before) in _file(model).variables.items():
             start = model._node.modifiers.get(name)
             if _same(before, state(model, name)) or not isinstance(start, Start):
                 found[name] = raw
@@ -138,14 +137,14 @@ class Writer:
         return found
 
     def _connectors(self, model: Component) -> dict[str, Any]:
-        found: dict[str, Any] = {}
+        found, known = dict[str, Any](), _file(model).class_names
         for name, declared in model._node.declarations():
             where = f"{model._node.label}.{name}"
             if isinstance(declared, Connector):
-                found[name] = self._class(type(declared), where, _known(model, name))
+                found[name] = self._class(type(declared), where, known.get(name))
             elif isinstance(declared, Input | Output) and declared.shape is None:
                 role = Input if isinstance(declared, Input) else Output
-                kind = self._class(role, where, _known(model, name))
+                kind = self._class(role, where, known.get(name))
                 found[name] = {"class": kind, "unit": declared.unit} if declared.unit else kind
             elif isinstance(declared, InitialParameter):
                 pass  # a parameter of the file
@@ -161,11 +160,10 @@ class Writer:
     def _part(
         self, model: Component, name: str, part: Component, stated: Mapping[str, Any]
     ) -> dict[str, Any]:
-        texts: Mapping[tuple[str, str], tuple[Any, Any]]
-        texts = model._file.texts if isinstance(model, Netlist) else {}
+        texts = _file(model).texts
         cls = None if isinstance(part, Netlist) else self._public(type(part))
         if cls is not None:
-            known = _known(model, name)
+            known = _file(model).class_names.get(name)
             entry: dict[str, Any] = {"class": self._class(cls, part._node.label, known)}
             changed = self._modifiers(model, part, cls, stated)
         elif part._node.children:
@@ -200,7 +198,7 @@ class Writer:
         self, model: Component, part: Component, cls: Any, stated: Mapping[str, Any]
     ) -> dict[str, Any]:
         """The modifiers that a new instance of the class needs to equal a part."""
-        made = model._file.arguments.get(part._node.name) if isinstance(model, Netlist) else None
+        made = _file(model).arguments.get(part._node.name)
         arguments = made or self._arguments(part, cls)
         try:
             fresh = cls(**arguments)
@@ -335,8 +333,9 @@ def _inner(stated: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     return cast(Mapping[str, Any], inner) if isinstance(inner, Mapping) else {}
 
 
-def _known(model: Component, name: str) -> str | None:
-    return model._file.class_names.get(name) if isinstance(model, Netlist) else None
+def _file(model: Component) -> FileRecord:
+    """What is known of the file of a model; nothing of one that was not read from one."""
+    return model._file if isinstance(model, Netlist) else FileRecord()
 
 
 def _check_statements(model: Component) -> None:
@@ -350,14 +349,12 @@ def _check_statements(model: Component) -> None:
 
 def _connections(model: Component) -> list[list[str]]:
     """The connections of the file, then those that were made since."""
-    found: list[list[str]] = []
-    count = 0
-    if isinstance(model, Netlist):
-        found = [list(pair) for pair, _ in model._file.wires]
-        count = sum(made for _, made in model._file.wires)
-    where = model._node.label
-    return found + [
-        [_path(model, end, where) for end in pair] for pair in model._node.connections[count:]
+    wires, where = _file(model).wires, model._node.label
+    count = sum(made for _, made in wires)
+    since = model._node.connections[count:]
+    return [
+        *(list(pair) for pair, _ in wires),
+        *([_path(model, end, where) for end in pair] for pair in since),
     ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -34,7 +35,7 @@ def plot_bode(
         DataError: for other axes.
     """
     upper, lower = several_axes(axes, (7.0, 5.0), 2, "2, for magnitude and phase")
-    for (label, response), color in zip(curves.items(), _colors(len(curves)), strict=True):
+    for (label, response), color in zip(curves.items(), cycle(LEARNED), strict=False):
         with np.errstate(divide="ignore"):
             upper.semilogx(omega, 20 * np.log10(np.abs(response)), color=color, label=label)
         phase = np.unwrap(np.angle(response))
@@ -58,7 +59,7 @@ def plot_nyquist(
         ax: matplotlib axes; by default those of a new figure.
     """
     ax = one_axes(ax, (6.0, 5.0))
-    for (label, response), color in zip(curves.items(), _colors(len(curves)), strict=True):
+    for (label, response), color in zip(curves.items(), cycle(LEARNED), strict=False):
         real, imaginary = np.real(response), np.imag(response)
         ax.plot(real, imaginary, color=color, label=label)
         ax.plot(real, -imaginary, color=color, ls="--", lw=0.9)
@@ -90,7 +91,7 @@ def plot_steps(
     n = len(curves)
     diagrams = several_axes(axes, (7.0, 1.0 + 2.0 * n), n, f"{n}, for outputs")
     for ax, (output, responses) in zip(diagrams, curves.items(), strict=True):
-        for (label, y), color in zip(responses.items(), _colors(len(responses)), strict=True):
+        for (label, y), color in zip(responses.items(), cycle(LEARNED), strict=False):
             ax.plot(time, y, color=color, label=label)
         ax.set_ylabel(output)
         ax.grid(alpha=0.25)
@@ -98,7 +99,3 @@ def plot_steps(
             ax.legend(frameon=False)
     diagrams[-1].set_xlabel("time in s")
     return cast("Figure", diagrams[0].figure)
-
-
-def _colors(n: int) -> list[str]:
-    return [LEARNED[i % len(LEARNED)] for i in range(n)]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from acausal.errors import DataError, nearest
+from acausal.errors import known_name
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -39,9 +39,7 @@ class PlainTable:
         Raises:
             DataError: if there is none.
         """
-        if name not in self.rows:
-            raise DataError(f"The table has no row '{name}'; {nearest(name, self.rows)}")
-        return self.rows[name]
+        return self.rows[known_name(name, self.rows, "The table has no row")]
 
     def as_data_frame(self) -> DataFrame | PlainTable:
         """The same as a pandas DataFrame; where pandas is not installed, the table itself."""

@@ -135,7 +135,7 @@ def block_of(
                 tuple(c for c, v in enumerate(codes) if v >= 0 and (e, c) in vanishing),
             )
         )
-    ranks = tuple(system.tear_rank(v) for v in unknowns)
+    ranks = tuple(system.tear_ranks.get(v, 0) for v in unknowns)
     own = list(externals), parameters, modules
     return Block(tuple(equations), tuple(stated), ranks, unknowns, *own)
 
@@ -181,7 +181,7 @@ def torn_block(system: Equations, blocks: Sequence[Block]) -> Torn:
 
     def preference(unknown: int) -> Preference:
         rank = ranks[unknown]
-        guessed = bool(nonlinear) and any(system.has_start(b.unknowns[unknown]) for b in blocks)
+        guessed = bool(nonlinear) and any(b.unknowns[unknown] in system.started for b in blocks)
         return Preference(rank, rank == ALWAYS, guessed, unknown in nonlinear)
 
     return tear(incidence, solvable, len(ranks), preference)

@@ -52,16 +52,13 @@ def dependence(
     wanted: Integers,
     n_nodes: int,
     most: int,
-) -> tuple[Integers, Integers]:
-    """The pairs (i, j) for which ``wanted[i]`` depends on ``sources[j]``, in order.
+) -> tuple[Integers, Integers] | None:
+    """The pairs (i, j) for which ``wanted[i]`` depends on ``sources[j]``, in order; None if there are too many.
 
     Arguments:
         computations: in order; each reads sources and results of those before it.
         n_nodes: nodes are less than this number.
         most: how many dependences may be written down.
-
-    Raises:
-        TooManyError: if there are more.
     """
     needed = np.zeros(n_nodes, dtype=bool)
     needed[wanted] = True
@@ -70,9 +67,12 @@ def dependence(
         chosen.append(computation.chosen(needed))
         needed[chosen[-1].reads] = True
     sets = _Sets(sources, n_nodes, most)
-    for computation in reversed(chosen):
-        sets.compute(computation)
-    return sets.pairs(np.arange(len(wanted)), wanted)
+    try:
+        for computation in reversed(chosen):
+            sets.compute(computation)
+        return sets.pairs(np.arange(len(wanted)), wanted)
+    except TooManyError:
+        return None
 
 
 class _Sets:

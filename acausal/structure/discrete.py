@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.errors import StructureError, listing
-from acausal.flattening import FlatModel, Integers, UpdateGroup
+from acausal.flattening import FlatModel, Integers
 from acausal.structure.aliases import AliasFree
 
 
@@ -18,8 +18,10 @@ def discrete_nodes(model: FlatModel, aliases: AliasFree) -> Integers:
     if not len(model.discrete):
         return model.discrete
     given: dict[int, str] = {}
-    for targets, origins in _given(model):
-        for variable, origin in zip(targets.tolist(), origins, strict=True):
+    for update in (*model.events.guards, *model.events.updates):
+        components = update.group.components.tolist()
+        for variable, component in zip(update.targets.tolist(), components, strict=True):
+            origin = model.stated_at(component, update.group.origins[0])
             node, name = int(aliases.representative[variable]), model.layout.variable(variable)
             if node == aliases.zero or node in set(aliases.representative[model.inputs].tolist()):
                 what = "zero" if node == aliases.zero else "an input of the model"
@@ -61,13 +63,3 @@ def check_jumps(model: FlatModel, aliases: AliasFree, states: set[int]) -> None:
             if node in jumping:
                 raise StructureError(f"two Reinit of '{name}' in different When(...); join them")
             jumping.add(node)
-
-
-def _given(model: FlatModel) -> list[tuple[Integers, list[str]]]:
-    """The variables that equations of events give, and these equations."""
-    groups = [*model.events.guards, *model.events.updates]
-    return [(g.targets, _origins(model, g)) for g in groups]
-
-
-def _origins(model: FlatModel, group: UpdateGroup) -> list[str]:
-    return [model.stated_at(c, group.group.origins[0]) for c in group.group.components.tolist()]

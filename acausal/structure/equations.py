@@ -88,8 +88,8 @@ class Equations:
         return parameter_values(self.model)
 
     @cached_property
-    def _tear(self) -> dict[int, int]:
-        """By node, how much it is preferred as a tearing variable; only those with a preference.
+    def tear_ranks(self) -> dict[int, int]:
+        """By node, how much it is preferred as a tearing variable: from -2 "never" to 2 "always", without those of 0.
 
         Of a node's names, the one whose preference is farthest from the default counts.
         """
@@ -99,18 +99,11 @@ class Equations:
         nodes = self.aliases.representative[order]
         return dict(zip(nodes.tolist(), given[order].tolist(), strict=True))
 
-    def tear_rank(self, node: int) -> int:
-        """How much a node is preferred as a tearing variable: from -2 "never" to 2 "always"."""
-        return self._tear.get(node, 0)
-
     @cached_property
-    def _started(self) -> set[int]:
+    def started(self) -> set[int]:
+        """The nodes of which the model's author has given a start value, by any of their names."""
         given = np.flatnonzero(self.model.start_given)
         return set(self.aliases.representative[given].tolist())
-
-    def has_start(self, node: int) -> bool:
-        """Whether the model's author has given a start value of a node, by any of its names."""
-        return node in self._started
 
     def unknowns(self) -> list[int]:
         """All representatives that are not known."""

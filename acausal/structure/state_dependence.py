@@ -12,7 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from acausal.flattening import Integers
 from acausal.structure.algebraic_loops import TornLoop
 from acausal.structure.blocks import Accumulation, Assignment
-from acausal.structure.dependence import Computation, TooManyError, dependence
+from acausal.structure.dependence import Computation, dependence
 from acausal.structure.reduced_model import ReducedModel
 from acausal.structure.sparse_loops import SparseLoop
 
@@ -45,11 +45,8 @@ def jacobian_pattern(
         else:
             computations.append(_COMPUTATION[type(step)](step))
     columns = np.concatenate(sources)
-    try:
-        found = dependence(computations, columns, np.concatenate(wanted), n_nodes, most)
-    except TooManyError:
-        return None
-    return len(columns), *found
+    found = dependence(computations, columns, np.concatenate(wanted), n_nodes, most)
+    return None if found is None else (len(columns), *found)
 
 
 def dependence_pattern(
@@ -61,22 +58,18 @@ def dependence_pattern(
         most: how many dependences may be listed, also of variables that are not wanted.
     """
     computations = [_COMPUTATION[type(step)](step) for step in reduced.steps]
-    try:
-        return dependence(computations, sources, wanted, len(reduced.derivative), most)
-    except TooManyError:
-        return None
+    return dependence(computations, sources, wanted, len(reduced.derivative), most)
+
+
+def _pairs(table: Integers, first: int = 0) -> tuple[Integers, Integers]:
+    """The number of a row, counted from ``first``, with each entry of it."""
+    rows, columns = table.shape
+    return np.repeat(np.arange(first, first + rows), columns), table.ravel()
 
 
 def _table(results: Integers, reads: Integers) -> Computation:
     """Rows that compute ``results[i]`` from ``reads[i]``."""
-    rows = np.arange(len(results))
-    return Computation(
-        len(results),
-        np.repeat(rows, results.shape[1]),
-        results.ravel(),
-        np.repeat(rows, reads.shape[1]),
-        reads.ravel(),
-    )
+    return Computation(len(results), *_pairs(results), *_pairs(reads))
 
 
 def _assignment(step: Assignment) -> Computation:
@@ -120,22 +113,18 @@ def _matched_torn(loop: TornLoop) -> tuple[Integers, Integers]:
         [loop.unknowns, loop.externals[:, ::-1]], axis=1
     )  # by code, also negative
     read = [known[:, list(loop.shape.equations[e].variables)] for e in loop.shape.matched]
-    rows = [np.repeat(k * size + np.arange(size), r.shape[1]) for k, r in enumerate(read)]
-    return np.concatenate(rows), np.concatenate([r.ravel() for r in read])
+    rows, nodes = zip(*(_pairs(r, k * size) for k, r in enumerate(read)), strict=True)
+    return np.concatenate(rows), np.concatenate(nodes)
 
 
 def _reads(loop: SparseLoop) -> tuple[Integers, Integers]:
     """Pairs of an equation and a node that it reads."""
-    offset = 0
-    rows: list[Integers] = []
-    nodes: list[Integers] = []
+    offset, pairs = 0, list[tuple[Integers, Integers]]()
     for group in loop.groups:
-        size, slots = group.variables.shape
-        rows.append(np.repeat(np.arange(offset, offset + size), slots))
-        nodes.append(group.variables.ravel())
-        offset += size
-    rows.append(offset + loop.sums.rows)
-    nodes.append(loop.sums.nodes)
+        pairs.append(_pairs(group.variables, offset))
+        offset += len(group.variables)
+    pairs.append((offset + loop.sums.rows, loop.sums.nodes))
+    rows, nodes = zip(*pairs, strict=True)
     return np.concatenate(rows), np.concatenate(nodes)
 
 

@@ -176,14 +176,12 @@ def _greedy(block: _Block, preferences: Sequence[Preference]) -> list[int]:
 
 
 def _worse(block: _Block, preference: Preference, variable: int) -> tuple[bool, float, bool, int]:
-    """Puts candidates in order, the best one first."""
-    nearness = _nearness(block, variable)
+    """Puts candidates in order, the best one first.
+
+    The nearer its equations are to have one open variable, the better; each more halves an equation's weight.
+    """
+    nearness = sum(0.5 ** block.open[e] for e in block.columns[variable])
     return not preference.guessed, -nearness, not preference.better, variable
-
-
-def _nearness(block: _Block, variable: int) -> float:
-    """How near a variable's equations are to have one open variable; each more halves an equation's weight."""
-    return sum(0.5 ** block.open[e] for e in block.columns[variable])
 
 
 def _pruned(block: _Block, preferences: Sequence[Preference], tears: list[int]) -> list[int]:

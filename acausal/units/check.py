@@ -117,7 +117,10 @@ def _measure(flat: FlatModel) -> _Measures:
 
     variables = [[index(d) for _, d in form.variables] for form in layout.forms]
     parameters = [[index(d) for _, d in form.parameters] for form in layout.forms]
-    modules = [[_signature(d) for _, d in form.modules] for form in layout.forms]
+    modules = [
+        [Signature(tuple(map(_dimension, d.takes)), _dimension(d.unit)) for _, d in form.modules]
+        for form in layout.forms
+    ]
     declared = tiled(layout, layout.parameter_base, parameters, np.int64)
     constants = np.zeros(len(flat.value) - flat.n_parameters, np.int64)
     return _Measures(
@@ -126,10 +129,6 @@ def _measure(flat: FlatModel) -> _Measures:
         modules=tuple(s for form in layout.form_of for s in modules[form]),
         known=tuple(indices),
     )
-
-
-def _signature(module: Module) -> Signature:
-    return Signature(tuple(_dimension(unit) for unit in module.takes), _dimension(module.unit))
 
 
 def _dimension(unit: str) -> Dimension | None:

@@ -501,7 +501,7 @@ def test_platforms_are_checked(
     def export(fmi: str, *platforms: str) -> None:
         ac.export.fmu(vehicle, tmp_path / "v.fmu", fmi=fmi, platforms=platforms)
 
-    with pytest.raises(ac.DataError, match=r"no platform 'x86-windows'; .*x86_64-windows"):
+    with pytest.raises(ac.DataError, match=r"no platform 'x86-windows': .*x86_64-windows"):
         export("3.0", "x86-windows")
     with pytest.raises(ac.DataError, match=r"FMI 2\.0 has no name for 'aarch64-linux'"):
         export("2.0", "aarch64-linux")
@@ -577,10 +577,10 @@ def test_wrong_calls_are_refused(vehicle: ac.System, tmp_path: Path) -> None:
 
     refused(ac.DataError, "there is no fmi='1.0'; give '3.0' or '2.0'", fmi="1.0")
     refused(
-        ac.DataError, "there is no kind 'modelexchange'; .*model_exchange", kinds="modelexchange"
+        ac.DataError, "there is no kind 'modelexchange': .*model_exchange", kinds="modelexchange"
     )
     refused(ac.DataError, r"kinds=\(\) leaves nothing to write", kinds=())
-    refused(ac.DataError, "no input 'road.v'; .*road.v_ref", inputs=["road.v"])
+    refused(ac.DataError, "no input 'road.v': .*road.v_ref", inputs=["road.v"])
     refused(ac.DataError, "no variable 'body.b'", outputs=["body.b"])
     refused(ac.DataError, "is an input; leave it out", outputs=["road.v_ref"])
     refused(ac.DataError, "is no length of a step", step=0)

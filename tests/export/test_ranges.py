@@ -186,7 +186,7 @@ def test_casadi_reads_an_fmu_with_the_flag(fmu: Unpacked, vehicle: ac.System) ->
 
 def test_wrong_ranges_are_refused(vehicle: ac.System, tmp_path: Path) -> None:
     for ranges, match in (
-        ({"spring_nn.nut": (0, 1)}, r"no network 'spring_nn\.nut'; did you mean 'spring_nn\.net'"),
+        ({"spring_nn.nut": (0, 1)}, r"no network 'spring_nn\.nut': did you mean 'spring_nn\.net'"),
         (
             {"spring_nn.net": (1, 0)},
             r"\(1, 0\) of 'spring_nn\.net' is no interval; give \(low, high\)",

@@ -15,11 +15,7 @@ from acausal.codegen import INSTRUCTION, Values, described
 from acausal.errors import ExportError, shortened
 from acausal.events import Events
 from acausal.export.c_text.calibration import split
-from acausal.export.c_text.events import (
-    ARGUMENTS as OF_EVENTS,
-    argument_sizes,
-    event_functions,
-)
+from acausal.export.c_text.events import ARGUMENTS as OF_EVENTS, event_functions
 from acausal.export.c_text.functions import CArgument, CFunction, write_function
 from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.statements import Buffer
@@ -87,14 +83,20 @@ def write_code(
     """
     system, events = vector.system, vector.system.events
     n_discrete = len(system.flat.discrete)
+    n_states, n_inputs = len(system.states), len(system.inputs)
+    n_conditions = 0 if events is None else events.n_guards
     sizes = {
-        "t": None,
-        "x": len(system.states),
-        "u": len(system.inputs),
-        "p": vector.size,
-        "d": n_discrete,
-    }
-    common = [_argument(a, sizes[a]) for a in ARGUMENTS]
+        "t": None, "x": n_states, "u": n_inputs, "p": vector.size, "d": n_discrete,
+        "apart": None, "initial": None, "holds": n_conditions,
+    }  # fmt: skip
+
+    def given(*names: str) -> list[CArgument]:
+        """Arrays of real numbers, or single ones, by names such as ``x``, ``x_before`` and ``seed_x``."""
+        lengths = [sizes[re.sub("^seed_|^along_|_before$", "", name)] for name in names]
+        pairs = zip(names, lengths, strict=True)
+        return [CArgument(Buffer(a, "real", n), () if n is None else (n,)) for a, n in pairs]
+
+    common = given(*ARGUMENTS)
     file = Workspace(describe=partial(_origin, system))
     known = _Known()
     functions: dict[str, CFunction] = {}
@@ -123,7 +125,7 @@ def write_code(
         def tangent(t: Any, x: Any, u: Any, p: Any, d: Any, *seeds: Any) -> Any:
             return jax.jvp(lambda t, x, u, p: evaluate(t, x, u, p, d), (t, x, u, p), seeds)[1]
 
-        seeds = [_argument(f"seed_{a}", sizes[a]) for a in "txup"]
+        seeds = given("seed_t", "seed_x", "seed_u", "seed_p")
         add("tangent", block_of(tangent, seeds), ["ddx", "dy"], seeds)
     if column:
 
@@ -131,10 +133,10 @@ def write_code(
             now = values(t, x, u, p, d)
             return jax.jvp(lambda x: system.rates(now._replace(x=x)), (x,), (seed,))[1:]
 
-        seeds = [_argument("seed_x", sizes["x"])]
-        add("column", block_of(along_state, seeds), ["ddx"], seeds)
+        seeds = given("seed_x")
+        add("jacobian_column", block_of(along_state, seeds), ["ddx"], seeds)
     if watch is not None:
-        excess = block_of(lambda *given: jnp.reshape(watch.excess(values(*given)), (1,)))
+        excess = block_of(lambda *now: jnp.reshape(watch.excess(values(*now)), (1,)))
         add(EXCESS, excess, [EXCESS])
     if system.edges:
 
@@ -142,23 +144,19 @@ def write_code(
             found = system.edges.ahead(vector.packed(p), t, apart, d if n_discrete else None)
             return jnp.stack([found.jump, found.bend])
 
-        apart = [_argument("apart", None)]
+        apart = given("apart")
         add("ahead", block_of(ahead, apart), ["edge"], apart)
     if events is not None:
-        read = argument_sizes(events, len(system.states), len(system.inputs))
         for name, function in event_functions(events, vector).items():
             names, result = OF_EVENTS[name]
-            own = [_argument(a, read[a]) for a in names]
+            own = given(*names)
             add(name, block_of(function, own), [result], own)
     functions["recalibrate"] = known.function(common[ARGUMENTS.index("p")], file)
-    starts = (
-        _starts(vector, [_argument(a, sizes[a]) for a in "tup"], file) if events is None else None
-    )
+    starts = _starts(vector, given("t", "u", "p"), file) if events is None else None
     if starts is not None:
         functions["starts"] = starts
     lengths = Sizes(
-        len(system.states), len(system.inputs), len(outputs), vector.size, n_discrete,
-        events.n_guards if events is not None else 0, known.size,
+        n_states, n_inputs, len(outputs), vector.size, n_discrete, n_conditions, known.size,
         max(f.real for f in functions.values()), max(f.whole for f in functions.values()),
     )  # fmt: skip
     return Code(functions, file, lengths, events)
@@ -193,11 +191,6 @@ def _origin(system: System, stack: str) -> str:
     return f"{'along the seeds: ' if 'jvp' in stack else ''}{shortened(words, 100)}".replace(
         "*/", "* /"
     )
-
-
-def _argument(name: str, size: int | None) -> CArgument:
-    """An array of so many real numbers, or a single one."""
-    return CArgument(Buffer(name, "real", size), () if size is None else (size,))
 
 
 class _Known:

@@ -9,24 +9,14 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from acausal import events as events_room, simulation
 from acausal.codegen import Values
-from acausal.events import (
-    ALL_AT_ONCE,
-    BAND,
-    CLOSE,
-    COINCIDE,
-    DOUBTED,
-    FORCED,
-    ONE_BY_ONE,
-    PASSES,
-    TRIES,
-    Events,
-    guards,
-    jumped,
-    updated,
-)
+from acausal.events import Events, guards, jumped, updated
 from acausal.export.vector import ParameterVector
-from acausal.simulation import CHATTERING, DEADBAND_GROWTH, NEAR
+
+REALS = ("CLOSE", "BAND", "NEAR", "DEADBAND_GROWTH", "COINCIDE")
+COUNTS = ("TRIES", "CHATTERING", "PASSES", "ALL_AT_ONCE", "DOUBTED", "FORCED", "ONE_BY_ONE")
+"""The limits of event iteration and search, by their names here and in C."""
 
 ARGUMENTS: Mapping[str, tuple[tuple[str, ...], str]] = {
     "conditions": (("x_before", "d_before"), "number"),
@@ -64,38 +54,11 @@ def event_functions(events: Events, vector: ParameterVector) -> dict[str, Callab
     }
 
 
-def argument_sizes(events: Events, states: int, inputs: int) -> dict[str, int | None]:
-    """The lengths of the arrays that the functions of `ARGUMENTS` read; None for a number."""
-    return {
-        "x_before": states,
-        "d_before": len(events.exact),
-        "along_x": states,
-        "along_u": inputs,
-        "holds": events.n_guards,
-        "initial": None,
-    }
-
-
 def constants() -> Iterator[str]:
     """The limits of event iteration and search, those of `acausal.simulate`."""
-    reals = {
-        "CLOSE": CLOSE,
-        "BAND": BAND,
-        "NEAR": NEAR,
-        "DEADBAND_GROWTH": DEADBAND_GROWTH,
-        "COINCIDE": COINCIDE,
-    }
-    counts = {
-        "TRIES": TRIES,
-        "CHATTERING": CHATTERING,
-        "PASSES": PASSES,
-        "ALL_AT_ONCE": ALL_AT_ONCE,
-        "DOUBTED": DOUBTED,
-        "FORCED": FORCED,
-        "ONE_BY_ONE": ONE_BY_ONE,
-    }
-    yield from (f"#define {name} R({value!r})" for name, value in reals.items())
-    yield f"enum {{ {', '.join(f'{name} = {count}' for name, count in counts.items())} }};"
+    known = {**vars(events_room), **vars(simulation)}
+    yield from (f"#define {name} R({known[name]!r})" for name in REALS)
+    yield f"enum {{ {', '.join(f'{name} = {known[name]}' for name in COUNTS)} }};"
 
 
 def tables(events: Events) -> Iterator[str]:

@@ -51,9 +51,12 @@ class CFunction:
     """A function that is written.
 
     Attributes:
+        arguments: what it reads: by name the length of an array, None for a number. results: arrays that it fills.
         lines: those of its body. real, whole: numbers of working memory, by kind.
     """
 
+    arguments: dict[str, int | None]
+    results: tuple[str, ...]
     lines: tuple[str, ...]
     real: int
     whole: int
@@ -83,7 +86,8 @@ def write_function(
     statements = without_unused(statements, {buffer.name for buffer, _ in results})
     offsets, real, whole = _places(work.work, statements)
     lines = [*_pointers(work.work, offsets), *written(statements)]
-    return CFunction(tuple(lines), real, whole)
+    sizes = {a.buffer.name: a.buffer.size for a in arguments}
+    return CFunction(sizes, tuple(buffer.name for buffer, _ in results), tuple(lines), real, whole)
 
 
 def _pointers(buffers: Sequence[Buffer], offsets: dict[str, int]) -> Iterator[str]:

@@ -31,94 +31,28 @@ _DIRECTIONAL = (
     "const NAME_real *along_u,\n    const NAME_real *along_p, NAME_real *of_dx, NAME_real *of_y);"
 )
 
+_STATUS = """    NAME_OK = 0,
+    NAME_NOT_FINITE = 1,      /* a value is no finite number */
+    NAME_SINGULAR = 2,        /* an implicit step has no unique solution */
+    NAME_NO_CONVERGENCE = 3,  /* Newton's method found no solution of an implicit step */
+    NAME_EVENT_ITERATION = 4, /* at an event discrete variables change each other without end */
+    NAME_CHATTERING = 5,      /* events follow each other without end */
+    NAME_RUN_AWAY = 6         /* a state is beyond all bounds */"""
+
 
 def header(text: ModelText) -> str:
     """The text of the header."""
-    guard, name, sizes = f"{text.name.upper()}_H", text.name, text.code.sizes
-    upper = text.name.upper()
-    stages = len(text.scheme.rows) * sizes.states
-    implicit = text.scheme.is_implicit
+    guard, name = f"{text.name.upper()}_H", text.name
     lines = [
-        f"/* {text.title}: its differential equations in C99, made by acausal.",
-        "",
-        f"   {name} m;                      all that the model needs; nothing else is allocated or shared",
-        f"   {name}_init(&m);               default parameters, start values",
-        f"   {name}_recalibrate(&m);        after m.p was changed: what depends on them alone",
-        f"   {name}_start(&m);              {text.of_start}",
-        f"   {name}_derivatives(&m);        m.dx from m.time, m.x, m.u",
-        f"   {name}_outputs(&m);            m.y from the same",
-        f"   {name}_step(&m, h, NULL);      one step of '{text.solver}' with inputs held",
-        f"   {name}_directional(&m, ...);   directional derivatives of m.dx and m.y",
-        *([_OUTSIDE_HELP.replace("NAME", name)] if text.watches else []),
-        *(_EVENT_HELP.replace("NAME", name).splitlines() if text.has_events else []),
-        "",
-        f"   Functions give {upper}_OK or why they failed. Models in several threads do not disturb each other. */",
+        *_help(text),
         f"#ifndef {guard}",
         f"#define {guard}",
         "",
         f"typedef {text.precision} {name}_real;",
         "",
-        "enum {",
-        f"    {upper}_STATES = {sizes.states},",
-        f"    {upper}_INPUTS = {sizes.inputs},",
-        f"    {upper}_OUTPUTS = {sizes.outputs},",
-        f"    {upper}_PARAMETERS = {sizes.parameters}{',' if text.has_events else ''}",
-        *(
-            [
-                f"    {upper}_DISCRETE = {sizes.discrete},",
-                f"    {upper}_CONDITIONS = {sizes.conditions}",
-            ]
-            if text.has_events
-            else []
-        ),
-        "};",
-        "",
-        "typedef enum {",
-        f"    {upper}_OK = 0,",
-        f"    {upper}_NOT_FINITE = 1,      /* a value is no finite number */",
-        f"    {upper}_SINGULAR = 2,        /* an implicit step has no unique solution */",
-        f"    {upper}_NO_CONVERGENCE = 3,  /* Newton's method found no solution of an implicit step */",
-        f"    {upper}_EVENT_ITERATION = 4, /* at an event discrete variables change each other without end */",
-        f"    {upper}_CHATTERING = 5,      /* events follow each other without end */",
-        f"    {upper}_RUN_AWAY = 6         /* a state is beyond all bounds */",
-        f"}} {name}_status;",
-        "",
+        *_constants(text),
         *(c_file("events.h", name) if text.has_events else []),
-        "typedef struct {",
-        f"    {name}_real time;{' ' * max(1, 20 - len(name))}/* s */",
-        *field_lines(name, "x", text.states, sizes.states, "states"),
-        *field_lines(name, "u", text.inputs, sizes.inputs, "inputs"),
-        *field_lines(name, "y", text.outputs, sizes.outputs, "outputs"),
-        *field_lines(
-            name,
-            "p",
-            text.parameters,
-            sizes.parameters,
-            "parameters; call recalibrate after a change",
-        ),
-        f"    {name}_real dx[{least(sizes.states)}]; /* derivatives of the states */",
-        *_discrete_fields(text),
-        f"    {name}_real known[{least(sizes.known)}]; /* what depends on parameters alone */",
-        f"    {name}_real stages[{least(stages)}], stage[{least(sizes.states)}]; /* of a step */",
-        *(
-            [
-                f"    {name}_real matrix[{sizes.states**2}], from[{sizes.states}], scratch[{sizes.states}];",
-                f"    {name}_real seed[{sizes.states}], remains;",
-                f"    int pivots[{sizes.states}];",
-            ]
-            if implicit
-            else []
-        ),
-        *(
-            [f"    {name}_real since, until; /* the edges around a step */"]
-            if text.has_edges
-            else []
-        ),
-        f"    {name}_real work[{least(sizes.work)}];",
-        f"    int whole_work[{least(sizes.whole_work)}];",
-        "    int broken; /* the state at which a step has failed */",
-        f"}} {name};",
-        "",
+        *_struct(text),
         "/* Variables that lie evenly in an array: m.x[first], m.x[first + stride], ... */",
         "typedef struct {",
         f"    char name[{_longest(text, lambda run, _: run.name)}];",
@@ -131,26 +65,100 @@ def header(text: ModelText) -> str:
             for kind, groups in text.tables()
         ),
         "",
-        f"void {name}_init({name} *m);",
-        f"{name}_status {name}_recalibrate({name} *m);",
-        f"{name}_status {name}_start({name} *m);",
-        f"{name}_status {name}_derivatives({name} *m);",
-        f"{name}_status {name}_outputs({name} *m);",
-        f"{name}_status {name}_step({name} *m, {name}_real h, const {name}_real *u_end);",
-        *([_DIRECTIONAL.replace("NAME", name)] if text.has_tangent else []),
-        *([f"int {name}_outside({name} *m);"] if text.watches else []),
-        *(
-            [
-                f"{name}_real {name}_next_event({name} *m); /* the next time at which the rates jump or bend */"
-            ]
-            if text.has_edges and not text.has_events
-            else []
-        ),
-        *(_EVENT_HEADS.replace("NAME", name).splitlines() if text.has_events else []),
+        *_functions(text),
         "",
         "#endif",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _help(text: ModelText) -> Iterator[str]:
+    name = text.name
+    yield from (
+        f"/* {text.title}: its differential equations in C99, made by acausal.",
+        "",
+        f"   {name} m;                      all that the model needs; nothing else is allocated or shared",
+        f"   {name}_init(&m);               default parameters, start values",
+        f"   {name}_recalibrate(&m);        after m.p was changed: what depends on them alone",
+        f"   {name}_start(&m);              {text.of_start}",
+        f"   {name}_derivatives(&m);        m.dx from m.time, m.x, m.u",
+        f"   {name}_outputs(&m);            m.y from the same",
+        f"   {name}_step(&m, h, NULL);      one step of '{text.solver}' with inputs held",
+        f"   {name}_directional(&m, ...);   directional derivatives of m.dx and m.y",
+    )
+    if text.watches:
+        yield _OUTSIDE_HELP.replace("NAME", name)
+    if text.has_events:
+        yield _EVENT_HELP.replace("NAME", name)
+    upper = name.upper()
+    yield ""
+    yield f"   Functions give {upper}_OK or why they failed. Models in several threads do not disturb each other. */"
+
+
+def _constants(text: ModelText) -> Iterator[str]:
+    """Sizes, and what functions give."""
+    upper, sizes = text.name.upper(), text.code.sizes
+    counts = {
+        "STATES": sizes.states,
+        "INPUTS": sizes.inputs,
+        "OUTPUTS": sizes.outputs,
+        "PARAMETERS": sizes.parameters,
+    }
+    if text.has_events:
+        counts |= {"DISCRETE": sizes.discrete, "CONDITIONS": sizes.conditions}
+    yield "enum {"
+    yield ",\n".join(f"    {upper}_{word} = {count}" for word, count in counts.items())
+    yield from ("};", "", "typedef enum {")
+    yield from _STATUS.replace("NAME", upper).splitlines()
+    yield from (f"}} {text.name}_status;", "")
+
+
+def _struct(text: ModelText) -> Iterator[str]:
+    name, sizes = text.name, text.code.sizes
+    stages = len(text.scheme.rows) * sizes.states
+    yield "typedef struct {"
+    yield f"    {name}_real time;{' ' * max(1, 20 - len(name))}/* s */"
+    yield from field_lines(name, "x", text.states, sizes.states, "states")
+    yield from field_lines(name, "u", text.inputs, sizes.inputs, "inputs")
+    yield from field_lines(name, "y", text.outputs, sizes.outputs, "outputs")
+    about = "parameters; call recalibrate after a change"
+    yield from field_lines(name, "p", text.parameters, sizes.parameters, about)
+    yield f"    {name}_real dx[{least(sizes.states)}]; /* derivatives of the states */"
+    if text.has_events:
+        runs = [(NameRange(n, "", None, i, 1, 1), "") for i, n in enumerate(text.discrete)]
+        about = "discrete variables, first the conditions"
+        yield from field_lines(name, "d", runs, sizes.discrete, about)
+        yield f"    {name}_events e;"
+    yield f"    {name}_real known[{least(sizes.known)}]; /* what depends on parameters alone */"
+    yield f"    {name}_real stages[{least(stages)}], stage[{least(sizes.states)}]; /* of a step */"
+    if text.scheme.is_implicit:
+        n = sizes.states
+        yield f"    {name}_real matrix[{n**2}], from[{n}], scratch[{n}];"
+        yield f"    {name}_real seed[{n}], remains;"
+        yield f"    int pivots[{n}];"
+    if text.has_edges:
+        yield f"    {name}_real since, until; /* the edges around a step */"
+    yield f"    {name}_real work[{least(sizes.work)}];"
+    yield f"    int whole_work[{least(sizes.whole_work)}];"
+    yield "    int broken; /* the state at which a step has failed */"
+    yield from (f"}} {name};", "")
+
+
+def _functions(text: ModelText) -> Iterator[str]:
+    name = text.name
+    yield f"void {name}_init({name} *m);"
+    for function in ("recalibrate", "start", "derivatives", "outputs"):
+        yield f"{name}_status {name}_{function}({name} *m);"
+    yield f"{name}_status {name}_step({name} *m, {name}_real h, const {name}_real *u_end);"
+    if text.has_tangent:
+        yield _DIRECTIONAL.replace("NAME", name)
+    if text.watches:
+        yield f"int {name}_outside({name} *m);"
+    if text.has_events:
+        yield _EVENT_HEADS.replace("NAME", name)
+    elif text.has_edges:
+        about = "the next time at which the rates jump or bend"
+        yield f"{name}_real {name}_next_event({name} *m); /* {about} */"
 
 
 def field_lines(
@@ -165,15 +173,6 @@ def field_lines(
     comment = textwrap.wrap(line, 100, break_long_words=False)
     length = "" if size is None else f"[{least(size)}]"
     yield (f"    {name}_real {field}{length}; /* " + "\n       ".join(comment) + " */")
-
-
-def _discrete_fields(text: ModelText) -> Iterator[str]:
-    if not text.has_events:
-        return
-    runs = [(NameRange(n, "", None, i, 1, 1), "") for i, n in enumerate(text.discrete)]
-    what = "discrete variables, first the conditions"
-    yield from field_lines(text.name, "d", runs, text.code.sizes.discrete, what)
-    yield f"    {text.name}_events e;"
 
 
 def _longest(text: ModelText, part: Callable[[NameRange, str], str]) -> int:

@@ -26,7 +26,8 @@ from acausal.export.traced import TracedOperation
 Combine = Callable[[Expr, Expr], Expr]
 
 
-def _operator(op: str, kind: str | None = None) -> Combine:
+def operator(op: str, kind: str | None = None) -> Combine:
+    """An operator of two numbers; its result is of a kind, by default that of the first."""
     return lambda a, b: Apply(op, (a, b), kind or a.kind)
 
 
@@ -40,13 +41,13 @@ def _extreme(name: str) -> Callable[[Lowering, str], Combine]:
 
 
 _COMBINE: Mapping[str, tuple[Callable[[Lowering, str], Combine], float]] = {
-    "reduce_sum": (lambda low, kind: _operator("+"), 0),
-    "reduce_prod": (lambda low, kind: _operator("*"), 1),
+    "reduce_sum": (lambda low, kind: operator("+"), 0),
+    "reduce_prod": (lambda low, kind: operator("*"), 1),
     "reduce_max": (_extreme("maximum"), -np.inf),
     "reduce_min": (_extreme("minimum"), np.inf),
-    "reduce_and": (lambda low, kind: _operator("&&", "bool"), 1),
-    "reduce_or": (lambda low, kind: _operator("||", "bool"), 0),
-    "reduce_xor": (lambda low, kind: _operator("!=", "bool"), 0),
+    "reduce_and": (lambda low, kind: operator("&&", "bool"), 1),
+    "reduce_or": (lambda low, kind: operator("||", "bool"), 0),
+    "reduce_xor": (lambda low, kind: operator("!=", "bool"), 0),
 }
 
 
@@ -82,7 +83,7 @@ def _reduce(low: Lowering, operation: TracedOperation, args: list[CArray]) -> li
         return [CArray(shape, kind, lambda i: element(i, zeros), source.cost)]
     buffer = low.new(shape, kind)
     for outer in low.over(shape):
-        total = _total(low, start, kind)
+        total = _variable(low, _first(start, kind), kind)
         for inside in low.over(lengths):
             low.emit(Assign(total, combine(total, element(outer, inside))))
         low.write(buffer, linear(outer, shape), total)
@@ -98,13 +99,11 @@ def _argument(op: str) -> Any:
         shape = operation.outputs[0].shape
         buffer = low.new(shape, "int")
         for outer in low.over(shape):
-            best = Read(low.memory.name("s"), None, source.kind)
 
             def at(i: Expr, outer: Index = outer) -> Expr:
                 return source.at((*outer[:axis], i, *outer[axis:]))
 
-            low.emit(Declare(Buffer(best.name, best.kind, None)))
-            low.emit(Assign(best, at(integer(0))))
+            best = _variable(low, at(integer(0)), source.kind)
             place = linear(outer, shape)
             low.write(buffer, place, integer(0))
             for (inside,) in low.over((source.shape[axis],)):
@@ -127,12 +126,12 @@ def _argument(op: str) -> Any:
     return rule
 
 
-def _total(low: Lowering, start: float, kind: str) -> Read:
+def _variable(low: Lowering, start: Expr, kind: str) -> Read:
     """A number in which others are combined."""
-    total = Read(low.memory.name("s"), None, kind)
-    low.emit(Declare(Buffer(total.name, kind, None)))
-    low.emit(Assign(total, _first(start, kind)))
-    return total
+    variable = Read(low.memory.name("s"), None, kind)
+    low.emit(Declare(Buffer(variable.name, kind, None)))
+    low.emit(Assign(variable, start))
+    return variable
 
 
 def _cumulative(reduce: str) -> Any:
@@ -145,7 +144,7 @@ def _cumulative(reduce: str) -> Any:
         rest = (*shape[:axis], *shape[axis + 1 :])
         buffer = low.new(shape, kind)
         for outer in low.over(rest):
-            total = _total(low, start, kind)
+            total = _variable(low, _first(start, kind), kind)
             for (i,) in low.over((shape[axis],)):
                 k = add(times(i, -1), integer(shape[axis] - 1)) if reverse else i
                 index = (*outer[:axis], k, *outer[axis:])
@@ -185,7 +184,7 @@ def _dot(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[
     buffer = low.new(shape, kind)
     if _rows_last(a, ca) and (_rows_last(b, cb) or not free_b):
         for out in low.over(shape):
-            total = _total(low, 0, kind)
+            total = _variable(low, _first(0, kind), kind)
             for inside in low.over(lengths):
                 low.emit(Assign(total, term(out, inside), op="+="))
             low.write(buffer, linear(out, shape), total)

@@ -53,15 +53,8 @@ def _element(array: CArray, index: Index) -> Expr:
     return array.at(tuple(integer(0) if n == 1 else i for i, n in own))
 
 
-def _operator(op: str) -> Rule:
-    def write(a: Expr, b: Expr) -> Expr:
-        return Apply(op, (a, b), a.kind)
-
-    return _on_elements(write)
-
-
-def _relation(op: str) -> Rule:
-    return _on_elements(lambda a, b: Apply(op, (a, b), "bool"))
+def _operator(op: str, kind: str | None = None) -> Rule:
+    return _on_elements(reductions.operator(op, kind))
 
 
 def _logical(op: str) -> Rule:
@@ -317,32 +310,28 @@ def _iota(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list
 
 # -- the table ---------------------------------------------------------------------------------------
 
+SAME = """acos acosh asin asinh atan atan2 atanh cbrt cos cosh erf erfc exp exp2 expm1 lgamma log log1p pow sin sinh
+sqrt tan tanh"""
+"""Functions that C has under JAX's names."""
+
 ON_ELEMENTS: Mapping[str, Rule] = {
     "add": _operator("+"), "add_any": _operator("+"), "sub": _operator("-"), "mul": _operator("*"),
     "neg": _on_elements(lambda a: Apply("neg", (a,), a.kind)),
     "div": _operator("/"), "rem": _real_or_int("fmod", "remainder_int", 4),
     "max": _real_or_int("maximum", "maximum_int", 2), "min": _real_or_int("minimum", "minimum_int", 2),
     "abs": _real_or_int("fabs", "absolute_int", 1), "sign": _real_or_int("signum", "signum_int", 2),
-    "eq": _relation("=="), "ne": _relation("!="), "lt": _relation("<"), "le": _relation("<="),
-    "lt_to": _relation("<"), "le_to": _relation("<="),
-    "gt": _relation(">"), "ge": _relation(">="),
-    "and": _logical("&&"), "or": _logical("||"), "xor": _relation("!="),
+    "eq": _operator("==", "bool"), "ne": _operator("!=", "bool"), "gt": _operator(">", "bool"),
+    "lt": _operator("<", "bool"), "le": _operator("<=", "bool"), "ge": _operator(">=", "bool"),
+    "lt_to": _operator("<", "bool"), "le_to": _operator("<=", "bool"),
+    "and": _logical("&&"), "or": _logical("||"), "xor": _operator("!=", "bool"),
     "not": _on_elements(lambda a: Apply("!", (a,), "bool")),
     "is_finite": _on_elements(lambda a: convert(Apply("isfinite", (a,), "int"), "bool")),
     "integer_pow": _integer_pow, "square": _prelude("square", 1),
     "logistic": _prelude("logistic", 10), "rsqrt": _prelude("inverse_sqrt", 10),
     "one_minus_square": _prelude("one_minus_square", 2),
-    "round": _prelude("round_even", 3), "pow": _function("pow"), "atan2": _function("atan2"),
-    "floor": _function("floor", 2), "ceil": _function("ceil", 2),
-    "nextafter": _function("nextafter", 3), "sqrt": _function("sqrt"), "cbrt": _function("cbrt"),
-    "exp": _function("exp"), "exp2": _function("exp2"), "expm1": _function("expm1"),
-    "log": _function("log"), "log1p": _function("log1p"), "sin": _function("sin"),
-    "cos": _function("cos"), "tan": _function("tan"), "asin": _function("asin"),
-    "acos": _function("acos"), "atan": _function("atan"), "sinh": _function("sinh"),
-    "cosh": _function("cosh"), "tanh": _function("tanh"), "asinh": _function("asinh"),
-    "acosh": _function("acosh"), "atanh": _function("atanh"), "erf": _function("erf"),
-    "erfc": _function("erfc"), "lgamma": _function("lgamma"), "clamp": _clamp,
-    "convert_element_type": _convert, "select_n": _select_n,
+    "round": _prelude("round_even", 3), "floor": _function("floor", 2), "ceil": _function("ceil", 2),
+    "nextafter": _function("nextafter", 3), **{name: _function(name) for name in SAME.split()},
+    "clamp": _clamp, "convert_element_type": _convert, "select_n": _select_n,
 }  # fmt: skip
 
 MOVED: Mapping[str, Rule] = {

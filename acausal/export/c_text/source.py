@@ -7,10 +7,11 @@ name belongs.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 import numpy as np
 
+from acausal import simulation
 from acausal.export.c_text import events
 from acausal.export.c_text.code import EXCESS
 from acausal.export.c_text.expressions import literal
@@ -18,19 +19,9 @@ from acausal.export.c_text.functions import CFunction
 from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.steps import attempt_lines, step_lines
 from acausal.export.c_text.text import ModelText, c_file, least, prelude
-from acausal.simulation import (
-    GROWS,
-    KAPPA,
-    LEAST,
-    OF_STALL,
-    SLOW,
-    STAGE_STEPS,
-    STAGE_TOLERANCE,
-    STALLS,
-)
 
-NUMBERS = ("t", "seed_t", "initial", "apart")
-"""Arguments that are single numbers."""
+FIELDS = ("p", "known", "d")
+"""Arrays that functions take from the struct."""
 
 
 def source(text: ModelText) -> str:
@@ -60,16 +51,9 @@ def _lines(text: ModelText) -> Iterator[str]:
     yield f"enum {{ KNOWN = {sizes.known} }};"
     yield ""
     yield from helpers(text.code.functions.values(), text.code.memory)
-    yield from _function(text, "rates", ["t", "x", "u"], ["dx"])
-    yield from _function(text, "outputs", ["t", "x", "u"], ["y"])
-    if text.has_tangent:
-        seeds = ["seed_t", "seed_x", "seed_u", "seed_p"]
-        yield from _function(text, "tangent", ["t", "x", "u", *seeds], ["ddx", "dy"])
-    yield from _function(text, "recalibrate", [], [])
-    if text.has_starts:
-        yield from _function(text, "starts", ["t", "u"], ["x"])
-    if text.watches:
-        yield from _function(text, EXCESS, ["t", "x", "u"], [EXCESS])
+    for function in ("rates", "outputs", "tangent", "recalibrate", "starts", EXCESS):
+        if function in text.code.functions:
+            yield from _function(text, function)
     yield from _edges(text)
     if text.scheme.is_implicit:
         yield from _implicit(text)
@@ -94,22 +78,22 @@ def helpers(functions: Iterable[CFunction], memory: Workspace) -> Iterator[str]:
     yield ""
 
 
-def _function(
-    text: ModelText, name: str, arguments: list[str], results: list[str], called: str = ""
-) -> Iterator[str]:
+def _function(text: ModelText, name: str, left_out: Collection[str] = ()) -> Iterator[str]:
     """A function of the file: arguments, pointers to what it reads of the struct, statements."""
     function = text.code.functions[name]
     body = _without_comments(function.lines)
+    given = [a for a in function.arguments if a not in (*FIELDS, *left_out)]
+    filled = [r for r in function.results if r not in FIELDS]
     head = [f"{text.name} *m"]
-    head += [f"const real {'' if a in NUMBERS else '*'}{a}" for a in arguments]
-    head += [f"real *restrict {r}" for r in results]
-    yield f"static void {called or name}({', '.join(head)}) {{"
-    for field in ("p", "known", "d"):
+    head += [f"const real {'' if function.arguments[a] is None else '*'}{a}" for a in given]
+    head += [f"real *restrict {r}" for r in filled]
+    yield f"static void {name}({', '.join(head)}) {{"
+    for field in FIELDS:
         if _mentions(body, field):
             const = "" if name == "recalibrate" and field == "known" else "const "
             yield f"    {const}real *const {field} = m->{field};"
-    unused = [a for a in (*arguments, *results) if not _mentions(body, a)]
-    if not re.search(r"\bm\b", body) and not any(_mentions(body, f) for f in ("p", "known", "d")):
+    unused = [a for a in (*given, *filled) if not _mentions(body, a)]
+    if not re.search(r"\bm\b", body) and not any(_mentions(body, f) for f in FIELDS):
         unused.append("m")
     if unused:
         yield "    " + " ".join(f"(void){a};" for a in unused)
@@ -128,8 +112,8 @@ def _steps(text: ModelText) -> Iterator[str]:
         yield from events.constants()
         yield from events.tables(found)
         yield ""
-        for function, (own, result) in events.ARGUMENTS.items():
-            yield from _function(text, function, ["t", "x", "u", *own], [result])
+        for function in events.ARGUMENTS:
+            yield from _function(text, function)
         yield "static Status attempt(Model *m, const real t, const real h) {"
         yield from attempt_lines(text.scheme, name)
         yield from ("}", "")
@@ -158,15 +142,12 @@ def _limits(text: ModelText) -> Iterator[str]:
 
 def _implicit(text: ModelText) -> Iterator[str]:
     precision = "float64" if text.precision == "double" else "float32"
-    yield f"#define TOLERANCE R({STAGE_TOLERANCE[precision]!r})"
-    yield f"#define LEAST R({LEAST[precision]!r})"
-    yield f"#define KAPPA R({KAPPA!r})"
-    yield f"#define STALLS R({STALLS!r})"
-    yield f"#define GROWS R({GROWS!r})"
-    yield f"#define OF_STALL R({OF_STALL!r})"
-    yield f"#define SLOW R({SLOW!r})"
-    yield f"enum {{ STAGE_STEPS = {STAGE_STEPS} }};"
-    yield from _function(text, "column", ["t", "x", "u", "seed_x"], ["ddx"], "jacobian_column")
+    yield f"#define TOLERANCE R({simulation.STAGE_TOLERANCE[precision]!r})"
+    yield f"#define LEAST R({simulation.LEAST[precision]!r})"
+    for name in ("KAPPA", "STALLS", "GROWS", "OF_STALL", "SLOW"):
+        yield f"#define {name} R({getattr(simulation, name)!r})"
+    yield f"enum {{ STAGE_STEPS = {simulation.STAGE_STEPS} }};"
+    yield from _function(text, "jacobian_column")
     yield from c_file("newton.c", text.name)
     yield ""
 
@@ -178,7 +159,7 @@ def _edges(text: ModelText) -> Iterator[str]:
         return
     limits = "FLT" if text.precision == "float" else "DBL"
     yield f"#define APART(size) (16 * {limits}_EPSILON * (size))"
-    yield from _function(text, "ahead", ["t", "apart"], ["edge"])
+    yield from _function(text, "ahead", left_out=("x", "u"))
     yield from c_file("edges.c", text.name)
     yield ""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from html import escape
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -67,8 +68,8 @@ class ModelDescription:
         experiment = {name: number(t) for name, t in times}
         SubElement(root, "DefaultExperiment", {**experiment, "stepSize": number(self.step)})
         listed = SubElement(root, "ModelVariables")
-        (self._add_scalars if old else self._add_arrays)(listed)
-        (self._add_structure_2 if old else self._add_structure_3)(root)
+        self._add_variables(listed)
+        self._add_structure(root)
         indent(root, " ")
         return b'<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, "utf-8") + b"\n"
 
@@ -102,29 +103,27 @@ class ModelDescription:
             for name in self.sources:
                 SubElement(listed, "File", name=name)
 
-    def _add_scalars(self, listed: Element) -> None:
-        time = SubElement(
-            listed, "ScalarVariable", name="time", valueReference="0", causality="independent",
-            variability="continuous",
-        )  # fmt: skip
-        SubElement(time, "Real", unit="s")
-        index = {v.reference: str(i + 2) for i, v in enumerate(self.variables)}
-        for v in self.variables:
-            kind = "Boolean" if v.kind == OUTSIDE else "Real"
-            real = SubElement(SubElement(listed, "ScalarVariable", _words(v)), kind, _values(v))
-            if v.kind == DERIVATIVE:
-                real.set("derivative", index[_state_of(v)])
+    def _place(self, reference: int) -> str:
+        """How a variable is named in other places: in FMI 2 by its index in the file, in FMI 3 by its reference."""
+        return str(self._index[reference] if self.fmi == "2.0" else reference)
 
-    def _add_arrays(self, listed: Element) -> None:
-        SubElement(
-            listed, "Float64", name="time", valueReference="0", causality="independent",
-            variability="continuous", unit="s",
-        )  # fmt: skip
+    @cached_property
+    def _index(self) -> dict[int, int]:
+        return {0: 1, **{v.reference: i + 2 for i, v in enumerate(self.variables)}}
+
+    def _add_variables(self, listed: Element) -> None:
+        def add(words: dict[str, str], kind: str, values: dict[str, str]) -> Element:
+            if self.fmi == "2.0":
+                return SubElement(SubElement(listed, "ScalarVariable", words), kind, values)
+            return SubElement(listed, kind, {**words, **values})
+
+        real = "Real" if self.fmi == "2.0" else "Float64"
+        time = {"causality": "independent", "variability": "continuous"}
+        add({"name": "time", "valueReference": "0", **time}, real, {"unit": "s"})
         for v in self.variables:
-            kind = "Boolean" if v.kind == OUTSIDE else "Float64"
-            element = SubElement(listed, kind, {**_words(v), **_values(v)})
+            element = add(_words(v), "Boolean" if v.kind == OUTSIDE else real, _values(v))
             if v.kind == DERIVATIVE:
-                element.set("derivative", str(_state_of(v)))
+                element.set("derivative", self._place((STATE << 24) + v.number))
             for length in v.shape:
                 SubElement(element, "Dimension", start=str(length))
 
@@ -143,39 +142,24 @@ class ModelDescription:
         """Whether states are computed at the start, so that what is unknown there depends on all parameters."""
         return any(v.initial == "approx" for v in self.variables)
 
-    def _add_structure_2(self, root: Element) -> None:
-        index = {0: 1, **{v.reference: i + 2 for i, v in enumerate(self.variables)}}
-        structure = SubElement(root, "ModelStructure")
-        for name, unknowns in zip(
-            ("Outputs", "Derivatives", "InitialUnknowns"), self._unknowns(), strict=True
-        ):
-            if not unknowns:
-                continue
-            listed = SubElement(structure, name)
-            for v in unknowns:
-                unknown = SubElement(listed, "Unknown", index=str(index[v.reference]))
-                if self.dependencies is not None and name != "InitialUnknowns":
-                    read = sorted(index[r] for r in self.dependencies[v.reference])
-                    unknown.set("dependencies", " ".join(map(str, read)))
-
-    def _add_structure_3(self, root: Element) -> None:
-        structure = SubElement(root, "ModelStructure")
+    def _add_structure(self, root: Element) -> None:
+        old, structure = self.fmi == "2.0", SubElement(root, "ModelStructure")
         parameters = [v.reference for v in self.variables if v.causality == "parameter"]
+        rate = "Derivative" if old else "ContinuousStateDerivative"
         for name, unknowns in zip(
-            ("Output", "ContinuousStateDerivative", "InitialUnknown"),
-            self._unknowns(),
-            strict=True,
+            ("Output", rate, "InitialUnknown"), self._unknowns(), strict=True
         ):
+            at_start = name == "InitialUnknown"
+            depends_on_all = at_start and (old or self.indicators or self._computes_starts)
+            listed = SubElement(structure, f"{name}s") if old and unknowns else structure
             for v in unknowns:
-                unknown = SubElement(structure, name, valueReference=str(v.reference))
-                at_start = name == "InitialUnknown"
-                depends_on_all = at_start and (self.indicators or self._computes_starts)
+                place = {"index" if old else "valueReference": self._place(v.reference)}
+                unknown = SubElement(listed, "Unknown" if old else name, place)
                 if self.dependencies is not None and not depends_on_all:
-                    read = [*self.dependencies[v.reference]]
-                    read += parameters if at_start else []
-                    unknown.set("dependencies", " ".join(map(str, sorted(read))))
+                    read = [*self.dependencies[v.reference], *(parameters if at_start else ())]
+                    unknown.set("dependencies", " ".join(map(self._place, sorted(read))))
         for v in self.variables:
-            if v.kind == INDICATOR:
+            if v.kind == INDICATOR and not old:
                 SubElement(structure, "EventIndicator", valueReference=str(v.reference))
 
 
@@ -255,7 +239,3 @@ def _values(v: WrittenVariable) -> dict[str, str]:
     if v.start is not None:
         found["start"] = " ".join(map(number, v.start))
     return found
-
-
-def _state_of(v: WrittenVariable) -> int:
-    return (STATE << 24) + v.number

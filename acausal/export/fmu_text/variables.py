@@ -197,8 +197,7 @@ def _members(
     group: Group, used: set[str], scalars: bool
 ) -> Iterator[tuple[int, str, range, tuple[int, ...], tuple[str, ...]]]:
     """Of every variable of a group: number, name, places, lengths, and the names of its members in the model."""
-    run = group.run
-    places = range(run.first, run.first + run.stride * run.count, run.stride)
+    run, places = group.run, group.run.places
     if not places:
         return
     if not scalars:

@@ -211,16 +211,8 @@ class Printer(StrPrinter):
     def _print_Pi(self, expr: Any) -> Any:
         return repr(float(sp.pi))
 
-    def _print_Integer(self, expr: Any) -> str:
-        return str(int(expr))
-
     def _print_Float(self, expr: Any) -> str:
         return number(expr) if abs(float(expr)) < 1e15 else repr(float(expr))
-
-    def _print_Rational(self, expr: Any) -> str:
-        return f"{expr.p}/{expr.q}"
-
-    _print_Half = _print_Rational
 
 
 class AtEvents(Printer):

@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal._jax import Equation, name_of
 from acausal.export.modelica_text.elementwise import ELEMENTWISE, Rule, refuse, shape_of
-from acausal.export.modelica_text.lines import BlockTerm, Body, Index, elements, shifted
+from acausal.export.modelica_text.lines import BlockTerm, Body, Index, elements, named, shifted
 from acausal.export.traced import places
 
 
@@ -88,20 +88,16 @@ def _joined(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list
     stacked = name_of(equation) == "stack"
     if int(equation.params["axis" if stacked else "dimension"]) != 0 or terms[0].truth:
         raise refuse(equation)
+    new, shape = int(stacked), shape_of(equation)
     if len(terms) == 1:
-        (term,), cut = terms, 1 if stacked else 0
-        return [
-            BlockTerm(
-                block, shape_of(equation), lambda index: term.at(index[cut:]), plain=term.is_plain
-            )
-        ]
-    name, at = block.declare(shape_of(equation)), 0
+        (term,) = terms
+        return [BlockTerm(block, shape, lambda index: term.at(index[new:]), plain=term.is_plain)]
+    name, at = block.declare(shape), 0
     for term in terms:
-        inner = (1, *term.shape) if stacked else term.shape
-        cut = 1 if stacked else 0
-        block.assign(name, inner, lambda index, term=term, cut=cut: term.at(index[cut:]), at)
+        inner = (1,) * new + term.shape
+        block.assign(name, inner, lambda index, term=term: term.at(index[new:]), at)
         at += inner[0]
-    return [BlockTerm(block, shape_of(equation), elements(name), whole=name, plain=True)]
+    return [named(block, name, shape)]
 
 
 def _pad(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
@@ -114,7 +110,7 @@ def _pad(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[Bl
     for n, at, term in ((low, 0, filling), (x.shape[0], low, x), (high, low + x.shape[0], filling)):
         if n:
             block.assign(name, (n,), lambda index, t=term: t.at(index if t.shape else ()), at)
-    return [BlockTerm(block, shape_of(equation), elements(name), whole=name, plain=True)]
+    return [named(block, name, shape_of(equation))]
 
 
 def _gathered(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:
@@ -128,7 +124,7 @@ def _gathered(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> li
     for target, source in zip(np.ndindex(*shape_of(equation)), sources, strict=True):
         left = elements(name)(tuple(str(i + 1) for i in target))
         block.equations.append(f"{left} = {x.at(tuple(map(str, source)))};")
-    return [BlockTerm(block, shape_of(equation), elements(name), whole=name, plain=True)]
+    return [named(block, name, shape_of(equation))]
 
 
 def _dot(block: Body, equation: Equation, terms: Sequence[BlockTerm]) -> list[BlockTerm]:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from acausal.export.modelica_text.declared import Flat
 from acausal.export.modelica_text.spelling import array, number
 from acausal.modeling import Component, Option, Variable
 from acausal.netlist import BARE_CONSTANTS, Library, Writer, installed
@@ -29,8 +30,6 @@ TYPES: dict[str, str] = {
     },
 }
 """The type of Modelica that has a choice of an option."""
-
-Flat = dict[tuple[str, ...], str]
 
 
 def standard_part(model: Component, name: str) -> tuple[str, Flat] | None:

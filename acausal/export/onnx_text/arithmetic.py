@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -36,19 +37,15 @@ def logical(operation: str) -> Rule:
     return rule
 
 
-def _composed(function: object) -> Rule:
+def _composed(function: Callable[..., str]) -> Rule:
     """Of one argument, by other operations."""
-    return lambda site: [function(site.graph, *site.names)]  # pyright: ignore[reportCallIssue]
+    return lambda site: [function(site.graph, *site.names)]
 
 
 def _cos(g: OnnxGraph, x: str) -> str:
     """``1 - 2 sin(x/2)²``: some run times have no ``Cos`` in double precision, but all have ``Sin``."""
     half = g.add("Sin", g.add("Mul", x, g.number(0.5)))
     return g.add("Sub", g.number(1), g.add("Mul", g.number(2), g.add("Mul", half, half)))
-
-
-def _tan(g: OnnxGraph, x: str) -> str:
-    return g.add("Div", g.add("Sin", x), _cos(g, x))
 
 
 def _log1p(g: OnnxGraph, x: str) -> str:
@@ -121,7 +118,7 @@ def _angle(g: OnnxGraph, y: str, x: str) -> str:
     over, under = g.add("Where", flat, y, x), g.add("Where", flat, x, y)
     safe = g.add("Where", g.add("Equal", under, zero), one, under)
     slope = g.cast(g.add("Div", over, safe), np.float32)
-    small = g.add("Cast", g.add("Atan", _single(g, slope)), to=g.kind(float))
+    small = g.add("Cast", g.add("Atan", g.add("Cast", slope, to=1)), to=g.kind(float))
     side = g.add("Where", g.add("Less", y, zero), g.number(-math.pi / 2), g.number(math.pi / 2))
     back = g.add("Where", g.add("Less", x, zero), g.add("Mul", side, g.number(2)), zero)
     guess = g.add("Where", flat, g.add("Add", small, back), g.add("Sub", side, small))
@@ -131,10 +128,6 @@ def _angle(g: OnnxGraph, y: str, x: str) -> str:
     z = g.add("Div", across, g.add("Where", g.add("Equal", along, zero), one, along))
     cube = g.add("Mul", g.add("Mul", z, z), g.add("Mul", z, g.number(1 / 3)))
     return g.add("Add", guess, g.add("Sub", z, cube))
-
-
-def _single(g: OnnxGraph, name: str) -> str:
-    return g.add("Cast", name, to=1)
 
 
 def _atan(g: OnnxGraph, x: str) -> str:
@@ -173,14 +166,6 @@ def _power(site: Site) -> list[str]:
     if found is None:
         return [g.add("Add", g.add("Mul", x, g.number(0)), g.number(1))]
     return [found if n > 0 else g.add("Div", g.number(1), found)]
-
-
-def _finite(g: OnnxGraph, x: str) -> str:
-    return g.add("Not", g.add("Or", g.add("IsInf", x), g.add("IsNaN", x)))
-
-
-def _rem(site: Site) -> list[str]:
-    return [site.graph.add("Mod", *site.names, fmod=1)]
 
 
 def _select(site: Site) -> list[str]:
@@ -230,16 +215,18 @@ RULES: dict[str, Rule] = {
     "exp2": _composed(lambda g, x: g.add("Exp", g.add("Mul", x, g.number(math.log(2))))),
     "expm1": _composed(_expm1),
     "integer_pow": _power,
-    "is_finite": _composed(_finite),
+    "is_finite": _composed(
+        lambda g, x: g.add("Not", g.add("Or", g.add("IsInf", x), g.add("IsNaN", x)))
+    ),
     "log1p": _composed(_log1p),
     "ne": _composed(lambda g, x, y: g.add("Not", g.add("Equal", x, y))),
     "one_minus_square": _composed(lambda g, x: g.add("Sub", g.number(1), g.add("Mul", x, x))),
-    "rem": _rem,
+    "rem": lambda site: [site.graph.add("Mod", *site.names, fmod=1)],
     "round": _round,
     "rsqrt": _composed(lambda g, x: g.add("Reciprocal", g.add("Sqrt", x))),
     "select_n": _select,
     "sinh": _composed(_sinh),
     "square": _composed(lambda g, x: g.add("Mul", x, x)),
-    "tan": _composed(_tan),
+    "tan": _composed(lambda g, x: g.add("Div", g.add("Sin", x), _cos(g, x))),
 }
 """By operation, how its nodes are made."""

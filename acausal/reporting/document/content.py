@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, TypeGuard
+from typing import Any, Literal
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -245,9 +245,5 @@ def table(
 
 def titled_sections(titled: Mapping[str, Sequence[Block | None]]) -> tuple[Section, ...]:
     """Sections by title; what is None is left out, and so is a section without anything."""
-    found = {title: tuple(filter(_is_block, blocks)) for title, blocks in titled.items()}
+    found = {t: tuple(b for b in blocks if b is not None) for t, blocks in titled.items()}
     return tuple(Section(title, blocks) for title, blocks in found.items() if blocks)
-
-
-def _is_block(block: Block | None) -> TypeGuard[Block]:
-    return block is not None
