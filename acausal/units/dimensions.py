@@ -35,7 +35,8 @@ DERIVED = {
 """Further symbols of units in Modelica, and a unit of the same dimension, perhaps of another scale."""
 
 FACTORS = {"deg": math.pi / 180, "rev": 2 * math.pi, "g": 1e-3, "t": 1e3, "l": 1e-3, "bar": 1e5, "mbar": 1e2,
-           "mmHg": 133.322387415, "eV": 1.602176634e-19, "min": 60.0, "h": 3600.0, "d": 86400.0, "degF": 5 / 9, "degR": 5 / 9}  # fmt: skip
+           "mmHg": 133.322387415, "eV": 1.602176634e-19, "min": 60.0, "h": 3600.0, "d": 86400.0, "degF": 5 / 9,
+           "degR": 5 / 9}  # fmt: skip
 """Symbols that are not of the SI's scale, and how many of the SI's units each is."""
 
 ZEROS = {"degC": 273.15, "degF": 459.67 * 5 / 9}
