@@ -130,9 +130,8 @@ def known_name(
     """
     if isinstance(name, str) and name in known:
         return name
-    wrong = (
-        str(name) if isinstance(name, str) else name
-    )  # as NumPy's texts, which it writes otherwise
+    # NumPy writes its texts otherwise.
+    wrong = str(name) if isinstance(name, str) else name
     raise error(f"{refusal} {shown(wrong)}{then} {nearest(name, known)}")
 
 

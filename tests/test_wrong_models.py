@@ -50,8 +50,12 @@ class Clipped(ac.Component):
 
     x, y, f = ac.Variable(start=1.0), ac.Variable(), ac.Variable()
 
+    def __init__(self) -> None:
+        super().__init__()
+        self.part = Equations("x", lambda s: [ac.Eq(ac.der(s.x), -1)])
+
     def equations(self) -> Iterator[ac.Eq]:
-        law = ac.where(self.x > 0.2, 1, self.x**2, events=True)
+        law = ac.where(self.part.x > 0.2, 1, self.x**2, events=True)
         yield from (ac.Eq(ac.der(self.x), -1), ac.Eq(self.y, law), ac.Eq(law - self.y, 0))
 
 
@@ -254,7 +258,7 @@ GALLERY: dict[str, Wrong] = {
     "a law with an event stated twice": (
         lambda: compiled(clipped=Clipped()),
         ac.StructureError,
-        ("undetermined: 'clipped.f'", "Piecewise((1, x > 0.2), (x**2, True))"),
+        ("undetermined: 'clipped.f'", "Piecewise((1, part.x > 0.2), (x**2, True))"),
     ),
     "two current sources in series": (
         lambda: compiled(

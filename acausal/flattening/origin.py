@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import numpy as np
 import sympy as sp
+from sympy.core.relational import Relational
 
 from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.template import slot
-from acausal.modeling import HALF, Component, Eq, references
+from acausal.modeling import HALF, Component, Eq, literal, references
 
 Origins = np.ndarray[Any, np.dtype[np.object_]]
 """An `Origin` for every instance."""
@@ -74,13 +76,19 @@ def _with_names(equation: Eq, owner: Component) -> Eq:
 
     Hidden variables of conditions are these conditions again.
     """
-    names: dict[sp.Basic, sp.Basic] = {}
-    for reference in {*references(equation.lhs), *references(equation.rhs)}:
-        if is_hidden(reference.path) and (meaning := reference.declaration.doc):
-            names[sp.Gt(reference, HALF)] = names[reference] = sp.Symbol(meaning)
-            names[sp.Le(reference, HALF)] = sp.Symbol(f"not ({meaning})")
-        elif route := reference.owner.route_from(owner._node):
+    stated = {*references(equation.lhs), *references(equation.rhs)}
+    hidden = {r: r.declaration.meaning for r in stated if is_hidden(r.path)}
+    meanings = {r: literal(meaning) for r, meaning in hidden.items() if meaning is not None}
+    names: dict[sp.Basic, Any] = {}
+    for reference in {*stated, *chain.from_iterable(map(references, meanings.values()))}:
+        if route := reference.owner.route_from(owner._node):
             names[reference] = slot(".".join((*route, reference.path)))
+    for reference, meaning in meanings.items():
+        named = meaning.xreplace(names)
+        if isinstance(named, Relational):
+            names |= {sp.Gt(reference, HALF): named, sp.Le(reference, HALF): named.negated}
+        else:
+            names[reference] = named
     if not names:
         return equation
     return Eq(equation.lhs.xreplace(names), equation.rhs.xreplace(names))

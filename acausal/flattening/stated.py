@@ -289,7 +289,7 @@ class _Sorting:
             lhs, rhs = literal(relation.lhs), literal(relation.rhs)
             value: Any = lhs - rhs if above else rhs - lhs
             strict = isinstance(relation, sp.Gt | sp.Lt)
-            target = self.known[relation] = self._new("bool", str(relation))
+            target = self.known[relation] = self._new("bool", relation)
             self.guards.append(GuardStatement(target, self._ticking(value), str(relation), strict))
         return self.known[relation]
 
@@ -301,7 +301,7 @@ class _Sorting:
         """
         key = Floored(number, sp.S.Zero)
         if key not in self.known:
-            n = self.known[key] = self._new("int", f"floor({number})")
+            n = self.known[key] = self._new("int", literal(key))
             before, number = Previous(n), self._ticking(literal(number))
             ends = 2 * sp.floor((before + 1) / 2), 2 * sp.floor(before / 2) + 1
             passed = [(end, self._new("bool")) for end in ends]
@@ -345,9 +345,10 @@ class _Sorting:
             self.updates[now] = UpdateStatement(now, sp.Piecewise((1, just), (0, True)), str(tick))
         return self.known[tick]
 
-    def _new(self, kind: Any, meaning: str = "") -> Reference:
+    def _new(self, kind: Any, meaning: Any = None) -> Reference:
         """A hidden variable; what it means is for messages."""
-        declaration = Discrete(0, kind=kind, doc=meaning)
+        declaration = Discrete(0, kind=kind)
+        declaration.meaning = meaning
         path = f"{HIDDEN}[{len(self.hidden) + 1}]"
         declaration.name = path
         self.hidden.append((path, declaration))

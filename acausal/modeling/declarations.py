@@ -169,6 +169,9 @@ class Discrete(Variable):
         kind: ``"real"``, ``"bool"`` (1 or 0) or ``"int"``; only a real one has derivatives.
     """
 
+    meaning: Any = None
+    """Of a hidden one, the expression whose value it is."""
+
     def __init__(
         self,
         start: Any = 0.0,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import logging
 import math
 import time
 from collections.abc import Generator, Sequence
@@ -36,6 +37,8 @@ from acausal.training.read_ahead import Ready, read_ahead
 from acausal.training.rejections import too_many
 from acausal.training.starts import Halving
 from acausal.training.strategy import Segment
+
+LOGGER = logging.getLogger(__name__)
 
 REPORT_EVERY = 0.5
 """Approximate seconds between two reports to the observers."""
@@ -121,7 +124,9 @@ class TrainingRun:
                 *times,
                 interrupted,
                 member.failed,
-                finished=not interrupted and (k in self.going or self.converged[k]),
+                finished=not interrupted
+                and member.failed is None
+                and (k in self.going or self.converged[k]),
             )
             for k, (member, end) in enumerate(
                 zip(self.members, unstacked(self.candidates[0], len(self.members)), strict=True)
@@ -142,6 +147,7 @@ class TrainingRun:
         self.before, self.evaluated = snapshot.before, snapshot.evaluated
         epochs = epochs_of(snapshot.state)
         self.done = self.before + max(epochs)
+        self._note_failed(stored.segment, snapshot.state)
         self._note_converged(stored.segment, snapshot.state)
         for member, count in zip(self.members, epochs, strict=True):
             member.before = member.log.epochs - count
@@ -152,11 +158,13 @@ class TrainingRun:
     def enter(self, i: int) -> State:
         """The trainer's state at the start of a segment."""
         self.before = self.done
-        for member in self.members:
-            member.before, member.failed = member.log.epochs, None
         entries = [m.best.trainable for m in self.members]
         if i and self.segments[i - 1].stage.onward and self.last == i - 1:
-            entries = unstacked(self.candidates[-1], len(self.members))
+            ends = unstacked(self.candidates[-1], len(self.members))
+            ended = zip(self.members, entries, ends, strict=True)
+            entries = [best if m.failed is not None else end for m, best, end in ended]
+        for member in self.members:
+            member.before, member.failed = member.log.epochs, None
         return replicate(self._begin(i, entries), self.mesh)
 
     def _begin(self, i: int, entries: Sequence[Trainable]) -> State:
@@ -252,22 +260,29 @@ class TrainingRun:
     ) -> list[Divergence]:
         """Log some updates; returns what diverged."""
         size, new = len(self.members), []
-        rejected = [int(r) for r in unstacked(state.rejected, size)]
-        if self.halving.rungs:  # one that diverges ends no other
-            rejected = [min(rejected[k] for k in self.going)] * size
-        tried = unstacked(state.trainable, size)
         counts = [b - a for a, b in zip(epochs_of(before), epochs_of(state), strict=True)]
         for k, entry in enumerate(unstacked(jax.tree.map(np.asarray, entries), size, axis=1)):
-            log = self.members[k].log
             if counts[k]:
-                new += log.add(entry, counts[k], started, ended, self.last)
-                failed = too_many(log, rejected[k], self.members[k].problem, tried[k])
-                if failed and not self.segments[self.last].stage.may_fail:
-                    raise TrainingError(failed)
-                self.members[k].failed = failed
+                new += self.members[k].log.add(entry, counts[k], started, ended, self.last)
+        self._note_failed(self.last, state)
         self.done += max(counts)
         self.candidates = candidates(state)
         return new
+
+    def _note_failed(self, i: int, state: State) -> None:
+        """Note for which trainings too many updates were rejected in a row."""
+        size, stage = len(self.members), self.segments[i].stage
+        rejected = [int(r) for r in unstacked(state.rejected, size)]
+        if self.halving.rungs:  # one that diverges ends no other
+            rejected = [min(rejected[k] for k in self.going)] * size
+        for member, count, tried in zip(
+            self.members, rejected, unstacked(state.trainable, size), strict=True
+        ):
+            member.failed = too_many(member.log, count, member.problem, tried)
+            if member.failed is not None and not stage.may_fail:
+                raise TrainingError(member.failed)
+            if member.failed is not None:
+                LOGGER.info("%s has ended: %s", stage.title, member.failed)
 
     def _keep(self, segment: int, state: State) -> None:
         """Pass all that is needed to continue from here to ``keep``."""

@@ -285,4 +285,6 @@ def _joins(flat: FlatModel, measures: _Measures) -> Iterator[str]:
                 first.setdefault(
                     known, f"'{flat.layout.variable(int(member))}' in {described(known)}"
                 )
-        yield f"{' and '.join(first.values())} are connected"
+        one, *others = first
+        if not all(one.agrees(other) and one.is_on_scale_of(other) for other in others):
+            yield f"{' and '.join(first.values())} are connected"

@@ -162,7 +162,7 @@ def _read(text: str) -> Dimension:
     found = NUMBER
     for symbol, power in factors:
         found *= _symbol(symbol, text) ** power
-    alone = len(factors) == 1 and factors[0][1] == 1
+    alone = len(factors) == 1 and factors[0][1] == 1 and math.isfinite(found.factor)
     return replace(found, name=text, zero=ZEROS.get(factors[0][0], 0.0) if alone else None)
 
 

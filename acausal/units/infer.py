@@ -137,6 +137,8 @@ class _Walk:
                 and (are_summed or found.is_on_scale_of(here))
             ):
                 raise _apart(first, found, part, here)
+            elif found.zero is None:
+                first, found = part, here
         return found
 
     def pure(self, part: Any, role: str) -> Dimension | None:
@@ -183,7 +185,10 @@ def _alike(walk: _Walk, expression: Any) -> Dimension | None:
 
 
 def _sum(walk: _Walk, expression: Any) -> Dimension | None:
-    """A sum; temperatures on two scales are added only as differences on each, or beside a number such as 273.15."""
+    """A sum; temperatures on two scales are added only as differences on each, or beside a number such as 273.15.
+
+    Where a term is neither, such as a product, the scales are not compared.
+    """
     found = walk.common(expression.args, are_summed=True)
     found = None if found is None else replace(found, zero=None)
     terms: dict[float, list[tuple[Any, Any, Dimension]]] = {}

@@ -67,4 +67,4 @@ def in_si(unit: str) -> InSI | None:
     if math.isnan(measured.factor):
         return None
     exponents = {s: int(e) for s, e in zip(BASE, measured.exponents, strict=True) if e}
-    return InSI(exponents, float(f"{measured.factor:.12g}"), measured.zero or 0.0)
+    return InSI(exponents, float(f"{measured.factor:.12g}"), float(f"{measured.zero or 0.0:.12g}"))

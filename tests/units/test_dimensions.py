@@ -16,7 +16,7 @@ import acausal as ac
 from acausal import components
 from acausal.flattening.flat_model import FlatModel, flatten
 from acausal.modeling import COMPUTABLE, Component
-from acausal.units import dimensions
+from acausal.units import dimensions, in_si
 from acausal.units.check import check_dimensions
 from acausal.units.dimensions import (
     BASE,
@@ -93,6 +93,15 @@ def test_the_tables_agree_with_pint() -> None:
         assert found is not None
         assert found.factor == pytest.approx(one - zero)
         assert found.zero == pytest.approx(zero)
+
+
+def test_units_of_no_fixed_size_fit_all_of_their_dimension() -> None:
+    decibel, number = read("dB"), read("1")
+    assert decibel is not None
+    assert number is not None
+    assert decibel.agrees(number)
+    assert decibel.agrees(read("%") or NUMBER)
+    assert in_si("dB") is None
 
 
 def test_units_are_written_as_they_are_read() -> None:

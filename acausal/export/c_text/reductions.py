@@ -127,7 +127,7 @@ def _argument(op: str) -> Any:
 
 
 def _variable(low: Lowering, start: Expr, kind: str) -> Read:
-    """A number in which others are combined."""
+    """A number that is declared with a value and changes later."""
     variable = Read(low.memory.name("s"), None, kind)
     low.emit(Declare(Buffer(variable.name, kind, None)))
     low.emit(Assign(variable, start))
