@@ -76,9 +76,15 @@ def with_steps(
 
             return back(of_moved, picked(values, kept.moved), steps, to)
 
-        filled = lambda c: jnp.zeros(c.shape, c.dtype) if is_zero(c) else c  # noqa: E731
-        to = jax.tree.map(filled, cotangents, is_leaf=is_zero)
+        to = jax.tree.map(_filled, cotangents, is_leaf=is_zero)
         return (scattered(kept.moved, one(kept.values, kept.steps, to)),)
 
     run.defvjp(forward, backward, symbolic_zeros=True)
     return run(leaves)
+
+
+def _filled(cotangent: Any) -> Any:
+    """A cotangent, where it is zero, too."""
+    if not is_zero(cotangent):
+        return cotangent
+    return jnp.zeros(cotangent.shape, cotangent.dtype)

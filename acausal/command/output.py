@@ -46,10 +46,7 @@ class CommandOutput:
         if sys.stdout.isatty():
             _rich_table(header, rows)
         else:
-            from acausal.reporting import aligned  # help starts without it
-
-            lines = aligned([header, *rows]).split("\n")
-            sys.stdout.write("".join(f"  {line}\n" for line in lines))
+            sys.stdout.write(_aligned([header, *rows]))
 
     def result(self, document: Mapping[str, Any]) -> None:
         """The result for programs, with the warnings."""
@@ -88,6 +85,13 @@ class CommandOutput:
 def number(value: Any) -> str:
     """A number for people: six digits."""
     return f"{float(value):.6g}"
+
+
+def _aligned(rows: Sequence[Sequence[str]]) -> str:
+    """Rows as text with columns below each other."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+    return "".join(f"  {line}\n" for line in lines)
 
 
 def _rich_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

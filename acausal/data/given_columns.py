@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -58,7 +59,7 @@ def columns_of(
         own = ts if given.times is None else given.times
         assert own is not None
         present = _present(name, given.samples, masks.get(name))
-        place = lambda i, ts=own: f"{sample(i)} ({ts[i]:g} {unit})"  # noqa: E731
+        place = partial(_place, ts=own, unit=unit)
         _check(name, present, own, place, "nan" if name in masks else missing)
         checked[name] = np.asarray(present, float)
     own_times = {name: given.times for name, given in measured.items() if given.times is not None}
@@ -201,6 +202,10 @@ def _check(name: str, samples: Any, ts: np.ndarray, place: Place, missing: Missi
         place=place,
         remedy="if such samples are missing, say missing='nan'",
     )
+
+
+def _place(i: int, ts: np.ndarray, unit: str) -> str:
+    return f"{sample(i)} ({ts[i]:g} {unit})"
 
 
 Times: TypeAlias = Float[np.ndarray, " n"]

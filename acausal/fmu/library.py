@@ -150,19 +150,12 @@ class SharedLibrary:
             log = (p, C.addressof(self._log))
             given = [name, (C.c_int, int(steps)), token, place, log, (boolean, 0), (boolean, 1)]
         else:
-            word, place = (
-                "CoSimulation" if steps else "ModelExchange",
-                (text, f"{resources}/".encode()),
-            )
+            word, place = "ModelExchange", (text, f"{resources}/".encode())
             nothing, log = (p, None), (p, C.cast(self._log, p))
             given = [name, token, place, (boolean, False), (boolean, True)]
             if steps:
-                given += [
-                    (boolean, d.event_mode),
-                    (boolean, d.returns_early),
-                    nothing,
-                    (C.c_size_t, 0),
-                ]
+                word, early = "CoSimulation", (boolean, d.returns_early)
+                given += [(boolean, d.event_mode), early, nothing, (C.c_size_t, 0)]
             given += [nothing, log, *([nothing] if steps else [])]
         kinds, values = zip(*given, strict=True)
         made = self.function(f"Instantiate{word}", *kinds, result=p)(*values)

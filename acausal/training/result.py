@@ -30,6 +30,8 @@ from acausal.training.presentation.fit_page import fit_content
 from acausal.training.presentation.fit_view import fit_text, fit_view
 from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records
+from acausal.training.starts import Starts
+from acausal.training.strategy import StageResult
 from acausal.training.trained_model import Seen, TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
 
@@ -263,9 +265,16 @@ def result(
     trained: Trained,
     prepare_seconds: float,
     held: Problem | None,
-    **others: Any,
+    *,
+    starts: Starts | None,
+    settings: dict[str, str],
+    stages: tuple[StageResult, ...],
+    step_error: float | None,
+    not_laws: tuple[str, ...],
+    without_constant: tuple[str, ...],
+    pieces: int,
 ) -> Fit:
-    """The result of a training; the other arguments are attributes of `Fit`."""
+    """The result of a training; arguments as the attributes of `Fit`."""
     best, history, held_out = trained.best, trained.history, dict[str, RecordFit]()
     if held is not None:
         held = replace(held, mesh=None)
@@ -296,5 +305,11 @@ def result(
         interrupted=trained.interrupted,
         problem=problem,
         trained=best.trainable,
-        **others,
+        starts=starts,
+        settings=settings,
+        stages=stages,
+        step_error=step_error,
+        not_laws=not_laws,
+        without_constant=without_constant,
+        pieces=pieces,
     )

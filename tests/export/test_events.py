@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import events
 from acausal.components import rotational as rot
+from acausal.export.c_text import events
 from tests.simulation.steps.test_chattering import Level
 from tests.support.exported_c import ExportedC
 from tests.support.fmus import Unpacked, need_fmpy

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import simulation
 from acausal.components import blocks, electrical as el, translational as tl
+from acausal.export.c_text import source
 from tests.simulation.test_small_states import Steep
 from tests.support.exported_c import ExportedC
 from tests.support.fmus import need_fmpy
@@ -126,8 +126,8 @@ def test_tolerances_of_newton_are_those_of_simulate(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     system = ac.compile(OvervoltageProtection())
-    monkeypatch.setattr(simulation, "STAGE_TOLERANCE", {"float64": 1.25e-7})
-    monkeypatch.setattr(simulation, "STAGE_STEPS", 123)
+    monkeypatch.setattr(source, "STAGE_TOLERANCE", {"float64": 1.25e-7})
+    monkeypatch.setattr(source, "STAGE_STEPS", 123)
     text = ac.export.c(system, tmp_path, solver="implicit_euler")[1].read_text()
     assert "#define TOLERANCE R(1.25e-07)" in text
     assert "STAGE_STEPS = 123" in text

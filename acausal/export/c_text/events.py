@@ -9,14 +9,24 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from acausal import events as events_room, simulation
 from acausal.codegen import Values
-from acausal.events import Events, guards, jumped, updated
+from acausal.events import (
+    ALL_AT_ONCE,
+    BAND,
+    CLOSE,
+    COINCIDE,
+    DOUBTED,
+    FORCED,
+    ONE_BY_ONE,
+    PASSES,
+    TRIES,
+    Events,
+    guards,
+    jumped,
+    updated,
+)
 from acausal.export.vector import ParameterVector
-
-REALS = ("CLOSE", "BAND", "NEAR", "DEADBAND_GROWTH", "COINCIDE")
-COUNTS = ("TRIES", "CHATTERING", "PASSES", "ALL_AT_ONCE", "DOUBTED", "FORCED", "ONE_BY_ONE")
-"""The limits of event iteration and search, by their names here and in C."""
+from acausal.simulation import CHATTERING, DEADBAND_GROWTH, NEAR
 
 ARGUMENTS: Mapping[str, tuple[tuple[str, ...], str]] = {
     "conditions": (("x_before", "d_before"), "number"),
@@ -56,9 +66,24 @@ def event_functions(events: Events, vector: ParameterVector) -> dict[str, Callab
 
 def constants() -> Iterator[str]:
     """The limits of event iteration and search, those of `acausal.simulate`."""
-    known = {**vars(events_room), **vars(simulation)}
-    yield from (f"#define {name} R({known[name]!r})" for name in REALS)
-    yield f"enum {{ {', '.join(f'{name} = {known[name]}' for name in COUNTS)} }};"
+    reals = {
+        "CLOSE": CLOSE,
+        "BAND": BAND,
+        "NEAR": NEAR,
+        "DEADBAND_GROWTH": DEADBAND_GROWTH,
+        "COINCIDE": COINCIDE,
+    }
+    counts = {
+        "TRIES": TRIES,
+        "CHATTERING": CHATTERING,
+        "PASSES": PASSES,
+        "ALL_AT_ONCE": ALL_AT_ONCE,
+        "DOUBTED": DOUBTED,
+        "FORCED": FORCED,
+        "ONE_BY_ONE": ONE_BY_ONE,
+    }
+    yield from (f"#define {name} R({value!r})" for name, value in reals.items())
+    yield f"enum {{ {', '.join(f'{name} = {count}' for name, count in counts.items())} }};"
 
 
 def tables(events: Events) -> Iterator[str]:

@@ -11,7 +11,6 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from acausal import simulation
 from acausal.export.c_text import events
 from acausal.export.c_text.code import EXCESS
 from acausal.export.c_text.expressions import literal
@@ -19,6 +18,16 @@ from acausal.export.c_text.functions import CFunction
 from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.steps import attempt_lines, step_lines
 from acausal.export.c_text.text import ModelText, c_file, least, prelude
+from acausal.simulation import (
+    GROWS,
+    KAPPA,
+    LEAST,
+    OF_STALL,
+    SLOW,
+    STAGE_STEPS,
+    STAGE_TOLERANCE,
+    STALLS,
+)
 
 FIELDS = ("p", "known", "d")
 """Arrays that functions take from the struct."""
@@ -142,11 +151,14 @@ def _limits(text: ModelText) -> Iterator[str]:
 
 def _implicit(text: ModelText) -> Iterator[str]:
     precision = "float64" if text.precision == "double" else "float32"
-    yield f"#define TOLERANCE R({simulation.STAGE_TOLERANCE[precision]!r})"
-    yield f"#define LEAST R({simulation.LEAST[precision]!r})"
-    for name in ("KAPPA", "STALLS", "GROWS", "OF_STALL", "SLOW"):
-        yield f"#define {name} R({getattr(simulation, name)!r})"
-    yield f"enum {{ STAGE_STEPS = {simulation.STAGE_STEPS} }};"
+    yield f"#define TOLERANCE R({STAGE_TOLERANCE[precision]!r})"
+    yield f"#define LEAST R({LEAST[precision]!r})"
+    yield f"#define KAPPA R({KAPPA!r})"
+    yield f"#define STALLS R({STALLS!r})"
+    yield f"#define GROWS R({GROWS!r})"
+    yield f"#define OF_STALL R({OF_STALL!r})"
+    yield f"#define SLOW R({SLOW!r})"
+    yield f"enum {{ STAGE_STEPS = {STAGE_STEPS} }};"
     yield from _function(text, "jacobian_column")
     yield from c_file("newton.c", text.name)
     yield ""
