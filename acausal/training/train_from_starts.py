@@ -135,17 +135,11 @@ def _in_pieces(
         or any(one.interrupted for one in trained)
     ):
         return None
-    cut, bests = training.automatic.pieces > 0, [one.best for one in trained]
+    cut = training.automatic.pieces > 0
     lengths = [
-        length_of_pieces(own, best.trainable, best.simulated, QUARTER if cut else HALF)
-        for own, best, one in zip(problems, bests, trained, strict=True)
-        if not explains(own, best.loss, noise_loss(own.records, best.simulated.y))
-        and (
-            cut
-            or one.failed is not None
-            or is_sensitive(own, best.trainable, best.simulated)
-            or not np.isfinite(best.loss)
-        )
+        length_of_pieces(own, one.best.trainable, one.best.simulated, QUARTER if cut else HALF)
+        for own, one in zip(problems, trained, strict=True)
+        if _needs_pieces(own, one, cut=cut)
     ]
     if not lengths:
         return None
@@ -163,6 +157,15 @@ def _in_pieces(
     assert prepared.automatic is not None
     chosen = replace(prepared.automatic, pieces=len(pieces))
     return replace(prepared, seconds=seconds, automatic=chosen)
+
+
+def _needs_pieces(problem: Problem, trained: Trained, *, cut: bool) -> bool:
+    """Whether whole records were not explained, or pieces of them, as the model is sensitive or has run away."""
+    best = trained.best
+    if explains(problem, best.loss, noise_loss(problem.records, best.simulated.y)):
+        return False
+    lost = trained.failed is not None or not np.isfinite(best.loss)
+    return cut or lost or is_sensitive(problem, best.trainable, best.simulated)
 
 
 def _step_errors(

@@ -111,10 +111,11 @@ class Dimension:
         """A unit as a person writes it: ``"N.m"``, ``"A.s2/kg"``, ``"1"``, ``"bar"``, ``"0.001 m/s"``."""
         if (self.factor == 1.0 or math.isnan(self.factor)) and not self.zero:
             return _usual().get(self.exponents) or _spelled(self)
-        return self.name or f"{self.factor:.6g} {self.in_si()}".removesuffix(" 1")
+        return self.name or f"{self.factor:.6g} {self.of_si}".removesuffix(" 1")
 
-    def in_si(self) -> Dimension:
-        """The SI's unit."""
+    @property
+    def of_si(self) -> Dimension:
+        """The SI's unit of this dimension."""
         return Dimension(self.exponents)
 
     def agrees(self, other: Dimension) -> bool:
@@ -146,7 +147,7 @@ def dimension(text: str) -> Dimension | None:
 
 def described(measured: Dimension) -> str:
     """A unit and what it measures, for a message: ``"N (force)"``."""
-    unit, si = str(measured), str(measured.in_si())
+    unit, si = str(measured), str(measured.of_si)
     return f"{unit} ({QUANTITIES[si]})" if si in QUANTITIES else unit
 
 
@@ -214,10 +215,11 @@ def _of_pint(symbol: str) -> Dimension | None:
     exponents = tuple(Fraction(powers.pop(name, 0)) for name in BASE.values())
     if powers:
         return None
-    one = registry().Quantity(1.0, unit)
-    proportional = one._is_multiplicative  # not decibels, for example
-    factor = float(one.to_base_units().magnitude) if proportional else math.nan
-    return Dimension(exponents, factor)
+    none, one, two = (
+        float(registry().Quantity(n, unit).to_base_units().magnitude) for n in (0.0, 1.0, 2.0)
+    )
+    proportional = none == 0.0 and math.isclose(two, 2 * one)  # not decibels, for example
+    return Dimension(exponents, one if proportional else math.nan)
 
 
 # -- writing ---------------------------------------------------------------------------------------

@@ -62,9 +62,9 @@ def in_si(unit: str) -> InSI | None:
         measured = dimension(unit)
     except UnitError:
         return None
-    if measured is None or any(e.denominator != 1 for e in measured.exponents):
+    if measured is None or math.isnan(measured.factor):
         return None
-    if math.isnan(measured.factor):
+    if any(e.denominator != 1 for e in measured.exponents):
         return None
     exponents = {s: int(e) for s, e in zip(BASE, measured.exponents, strict=True) if e}
     return InSI(exponents, float(f"{measured.factor:.12g}"), float(f"{measured.zero or 0.0:.12g}"))
