@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 LONG = 10
 """An interval without samples is a gap if it is longer than this many median sample times of its signal."""
 
+WARM, CELSIUS = 200.0, (-100.0, 150.0)
+"""A temperature that is usually higher [K] is absolute, and no difference; values between these may be in degC."""
+
 SIZE, MOST_PLOTS = (420, 96), 12
 """Of a plot in a row of a view, in pixels; and signals with a plot: further ones are in the table only."""
 
@@ -149,6 +152,9 @@ class Data(ByName, Formats):
 
         Raises:
             DataError: for a name that is not a variable of the model, or a unit of another dimension.
+
+        Warns:
+            UserWarning: of temperatures without a unit that look like degrees Celsius where the model has kelvins.
         """
         if not hasattr(system, "vector_field"):
             raise DataError(
@@ -162,6 +168,7 @@ class Data(ByName, Formats):
                 f"{nearest(unknown[0], known)} Leave others out by data.select([...])."
             )
         if self.units is None:
+            _warn_of_celsius(self.signals, system)
             return self
         given = self.units
         converted = {
@@ -314,6 +321,24 @@ class Data(ByName, Formats):
             f"Data({len(self)} samples at {spacing}, {self.time[0]:g} to {self.time[-1]:g} s: "
             f"{listing(self.signals)}{more})"
         )
+
+
+def _warn_of_celsius(signals: Mapping[str, Float[np.ndarray, " n"]], system: System) -> None:
+    """Warn of values such as 20 for temperatures that are about 300 in the model."""
+    flat, representative = system.flat, system.reduced.aliases.representative
+    for name, values in signals.items():
+        variable = flat.layout.find_variable(name)
+        if variable is None or system.unit(name) != "K":
+            continue
+        same = np.flatnonzero(representative[: flat.n_variables] == representative[variable])
+        usual = float(np.nanmax(np.abs([flat.nominal[same], flat.start[same]])))
+        low, high = float(np.nanmin(values)), float(np.nanmax(values))
+        if usual >= WARM and CELSIUS[0] < low and high < CELSIUS[1]:
+            warnings.warn(
+                f"'{name}' lies between {low:.3g} and {high:.3g}, and the model has it in K. If these are degrees "
+                f"Celsius, say so: ac.Data(..., units={{'{name}': 'degC', ...}}).",
+                stacklevel=user_level(),
+            )
 
 
 def _warn_of_gaps(ts: Float[np.ndarray, " n"], name: str, interpolation: str) -> None:

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.components import thermal
 from acausal.units.si import convert
 from tests.support.oscillator import plain
 
@@ -61,6 +62,26 @@ def test_spellings_of_units(given, wanted, factor):
 
 def test_temperatures_have_an_offset():
     assert convert(np.array([20.0]), "degC", "K", "x")[0] == pytest.approx(293.15)
+
+
+class Room(ac.Component):
+    def __init__(self) -> None:
+        super().__init__()
+        self.air, self.wall = thermal.HeatCapacitor(C=1e4), thermal.ThermalConductor(G=10.0)
+        self.outside = thermal.PrescribedTemperature()
+        self.connect(self.outside.port, self.wall.port_a)
+        self.connect(self.wall.port_b, self.air.port)
+
+
+def test_temperatures_that_look_like_degrees_celsius_are_said_to(recwarn):
+    system, values = ac.compile(Room()), 20 + 5 * TIME
+    for name in ("outside.T", "air.T"):
+        with pytest.warns(UserWarning, match=f"'{name}' lies between 20 and 25, and the model has"):
+            ac.Data(TIME, {name: values}).for_system(system)
+    recwarn.clear()
+    ac.Data(TIME, {"outside.T": values}, units={"outside.T": "degC"}).for_system(system)
+    ac.Data(TIME, {"air.T": values + 273.15, "wall.dT": values}).for_system(system)
+    assert not recwarn.list
 
 
 @pytest.mark.parametrize(
