@@ -200,8 +200,7 @@ class System(LeavesCaches):
     @cached_property
     def remembered(self) -> tuple[str, ...]:
         """Names of the discrete variables whose value before an event decides on that after it."""
-        events = self.flat.events
-        groups = (*events.guards, *events.updates, *events.jumps)
+        groups = self.flat.events.all
         read = [g.group.variables[:, np.asarray(g.previous, bool)].ravel() for g in groups]
         known = np.unique(np.concatenate([np.zeros(0, np.int64), *read]))
         names = map(self.flat.layout.variable, np.intersect1d(known, self.flat.discrete).tolist())

@@ -71,8 +71,14 @@ def _calls(system: System, wanted: list[int]) -> Iterator[Calls]:
 
 
 def _stated(system: System) -> Iterator[tuple[EquationGroup, Any, Integers]]:
-    """The calls of modules that equations state: their group, the call, and the module that each row calls."""
-    for group in system.flat.groups:
+    """The calls of modules that equations state, at all times and then at events.
+
+    Each is given by its group, the call, and the module that each row calls.
+    """
+    flat, events = system.flat, system.flat.events
+    conditions = (guard.group for guard in events.guards)
+    given = (stated.as_equation("target") for stated in (*events.updates, *events.jumps))
+    for group in (*flat.groups, *conditions, *given):
         if group.template.modules:
             for call in sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key):
                 slot = group.template.modules.index(call.args[0])
@@ -132,7 +138,11 @@ def labels(system: System, module: str, packed: Packed) -> Labels:
 def _given(group: EquationGroup, call: Any) -> tuple[Any, Any]:
     """The variable that is a law times a factor of numbers and parameters; None where it is more than that."""
     template, law = group.template, sp.Dummy()
-    residual: Any = sp.expand(template.residual.xreplace({call: law}))
+    residual: Any = template.residual.xreplace({call: law})
+    for cases in residual.atoms(sp.Piecewise):
+        values = [value for value, _ in cases.args if value.has(law)]
+        residual = residual.xreplace({cases: values[0]}) if len(values) == 1 else residual
+    residual = sp.expand(residual)
     others = residual.free_symbols & {*template.variables, time}
     if len(others) == 1:
         (variable,) = others

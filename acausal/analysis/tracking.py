@@ -107,7 +107,7 @@ class TrackedModel(eqx.Module):
         start = self.values(step.t, z, step.inputs.start)
         found = self.integrate(start, jax.tree.map(lambda a: a[None], step), direct=True)
         _, own, d = self.parts(z)
-        return jnp.concatenate([found.end, own, d if found.d is None else found.d])
+        return jnp.concatenate([found.end, own, d if found.d_end is None else found.d_end])
 
     def integrate(self, start: Values, steps: Steps, *, direct: bool = False) -> Integrated:
         """The model over some rows; arguments as of `acausal.simulation.integrate`."""

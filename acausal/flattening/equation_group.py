@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import sympy as sp
 
 from acausal.errors import StructureError
 from acausal.flattening.origin import Origin, Origins
 from acausal.flattening.sums import Statement
-from acausal.flattening.template import Integers, KeptSlots
+from acausal.flattening.template import Integers, KeptSlots, Template
 
 
 @dataclass(frozen=True)
@@ -85,6 +86,24 @@ class UpdateGroup:
     targets: Integers
     previous: tuple[bool, ...]
 
+    def as_equation(self, name: str) -> EquationGroup:
+        """The equation ``target - value = 0``, the target as its first variable.
+
+        Arguments:
+            name: of the target's slot.
+        """
+        own, template = self.group, self.group.template
+        assert isinstance(template, Template)
+        target = sp.Symbol(name, real=True)
+        equation = replace(
+            template,
+            residual=target - template.residual,
+            variables=(target, *template.variables),
+            orders=(0, *template.orders),
+        )
+        variables = np.concatenate([self.targets[:, None], own.variables], axis=1)
+        return replace(own, template=equation, variables=variables)
+
 
 @dataclass(frozen=True)
 class GuardGroup(UpdateGroup):
@@ -105,3 +124,8 @@ class EventEquations:
     guards: tuple[GuardGroup, ...] = ()
     updates: tuple[UpdateGroup, ...] = ()
     jumps: tuple[UpdateGroup, ...] = ()
+
+    @property
+    def all(self) -> tuple[UpdateGroup, ...]:
+        """All three."""
+        return *self.guards, *self.updates, *self.jumps

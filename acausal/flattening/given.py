@@ -40,8 +40,7 @@ def with_inputs(model: FlatModel, names: Sequence[str]) -> FlatModel:
     while True:
         targets = [*(g.targets for g in events.guards), *(g.targets for g in events.updates)]
         known = np.concatenate([idle, *targets])
-        stated = (*events.guards, *events.updates, *events.jumps)
-        read = [model.groups, model.initial, [g.group for g in stated]]
+        read = [model.groups, model.initial, [g.group for g in events.all]]
         needed = np.concatenate([idle[:0], *(g.variables.ravel() for some in read for g in some)])
         unread = [
             v

@@ -169,14 +169,16 @@ class Integrated(NamedTuple):
         y: the outputs there, shape (n, n_outputs); ``None`` without any.
         end: the state after the last step, shape (n_states,).
         log: what has happened, by a clock that begins with the first step; ``None`` for a model without events.
-        d: the discrete variables after the last step; ``None`` for such a model.
+        d: the discrete variables at the steps' starts, shape (n, n_discrete); ``None`` for such a model.
+        d_end: the same after the last step, shape (n_discrete,).
     """
 
     x: Float[Array, "n n_states"]
     y: Float[Array, "n n_outputs"] | None
     end: State
     log: Log | None = None
-    d: Float[Array, " n_discrete"] | None = None
+    d: Float[Array, "n n_discrete"] | None = None
+    d_end: Float[Array, " n_discrete"] | None = None
 
 
 def integrate(

@@ -201,8 +201,9 @@ def trained_networks(
 
 def _is_called(system: System, network: str) -> bool:
     """Whether an equation calls a network; an option of its component may have left it out."""
-    layout, groups = system.layout, (g for g in system.flat.groups if g.template.modules)
+    layout, flat = system.layout, system.flat
     target = layout.own_modules[layout.module_names.index(network)]
+    groups = (*flat.groups, *(stated.group for stated in flat.events.all))
     return any(bool((layout.module_of[group.modules] == target).any()) for group in groups)
 
 
@@ -279,7 +280,7 @@ def _shooting_states(problem: Problem, data: dict[str, Data]) -> ShootingStates:
     records = problem.records
     sequences = problem.sequences
     untrained = replace(problem, first_states=problem.first_states.from_model())
-    passed = np.array(_states_before_training(untrained))
+    passed = np.array(_states_before_training(untrained)[0])
     for i, name in enumerate(problem.system.states):
         for k, record in enumerate(data.values()):
             if name in record.signals:
@@ -297,24 +298,29 @@ def _context(problem: Problem) -> Context:
         TrainingError: if states are not measured, and the model diverges.
     """
     rows = np.unique(np.linspace(0, len(problem.records) - 1, PASSED).astype(int))
-    x = _states_before_training(problem)
+    x, d = _states_before_training(problem)
     t = problem.records.steps.t
-    passed = Trajectory(problem.system, t[rows], x[rows], problem.inputs[rows])
-    return Context(problem.networks, problem.seen(problem.start(), x, jnp.asarray(rows)), passed)
+    own = None if d is None else d[rows]
+    passed = Trajectory(problem.system, t[rows], x[rows], problem.inputs[rows], own)
+    return Context(problem.networks, problem.seen(problem.start(), x, d, jnp.asarray(rows)), passed)
 
 
-def _states_before_training(problem: Problem) -> Float[Array, "N n_states"]:
-    """The states at every row: as measured, else as the model has them before training.
+def _states_before_training(
+    problem: Problem,
+) -> tuple[Float[Array, "N n_states"], Float[Array, "N n_discrete"] | None]:
+    """The states at every row, as measured, else as the model has them before training; and its discrete variables.
 
     Raises:
         TrainingError: if the model diverges.
     """
     measured = problem.records.x
-    if measured is not None and not bool(jnp.isnan(measured).any()):
-        return measured
-    x = problem.simulate(problem.start()).x
+    known = measured is not None and not bool(jnp.isnan(measured).any())
+    if known and problem.system.events is None:
+        return measured, None
+    found = problem.simulate(problem.start())
+    x = measured if known else found.x
     if not bool(jnp.isfinite(x).all()):
         raise TrainingError(
             "The model diverges over its records before training; start from better parameters."
         )
-    return x
+    return x, found.d

@@ -106,7 +106,7 @@ def of_records(
         np.asarray(a) for a in (records.steps.t, simulated.x, simulated.y, problem.inputs)
     )
     measured = records.measured
-    seen = problem.seen(trainable, simulated.x) if problem.networks else {}
+    seen = problem.seen(trainable, simulated.x, simulated.d) if problem.networks else {}
     calls = {n: np.asarray(a).reshape(len(x), -1, a.shape[-1]) for n, a in seen.items()}
     own = problem.per_record.values(problem.assemble(trainable), trainable.per_record)
 

@@ -170,18 +170,8 @@ def _at_events(flat: FlatModel) -> Iterator[EquationGroup]:
     events = flat.events
     yield from (guard.group for guard in events.guards)
     for update in (*events.updates, *events.jumps):
-        own, template = update.group, update.group.template
-        assert isinstance(template, Template)
         name = flat.layout.variable(int(update.targets[0])).rpartition(".")[2]
-        target = sp.Symbol(f"new {name}", real=True)
-        equation = replace(
-            template,
-            residual=target - template.residual,
-            variables=(target, *template.variables),
-            orders=(0, *template.orders),
-        )
-        variables = np.concatenate([update.targets[:, None], own.variables], axis=1)
-        yield replace(own, template=equation, variables=variables)
+        yield update.as_equation(f"new {name}")
 
 
 def _with_numbers(flat: FlatModel, group: EquationGroup, least: bool) -> EquationGroup:

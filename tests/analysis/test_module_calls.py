@@ -76,3 +76,29 @@ def test_the_quantity_is_the_law_times_its_factor() -> None:
     found = labels(system, "loss.net", system.pack(params))
     flow = system.observe("loss.port.Q_flow", 0.0, jnp.array([290.0]), np.array([30.0]), params)
     assert float(flow) == pytest.approx(found.factor * 2 * 30.0 / 150)
+
+
+class Sampled(ac.Component):
+    """What a network gives every second, and what it makes a state jump to."""
+
+    e = ac.Input(unit="m")
+    x = ac.Variable(unit="m", start=0.0)
+    u = ac.Discrete(0.0, unit="N")
+    net = ac.Module()
+    jump = ac.Module()
+
+    def __init__(self) -> None:
+        super().__init__(net=Double(), jump=Double())
+
+    def equations(self) -> Iterator[ac.Eq | ac.When]:
+        yield ac.Eq(ac.der(self.x), self.u)
+        yield ac.When(ac.sample(0.0, 1.0), ac.Eq(self.u, 3 * self.net(self.e - self.x)))
+        yield ac.When(self.x > 1, ac.Reinit(self.x, self.jump(self.x)))
+
+
+def test_a_law_at_events_is_given_in_the_variable_that_it_sets() -> None:
+    system = ac.compile(Sampled(), check_units=False)
+    packed = system.pack(system.parameters())
+    net, jump = labels(system, "net", packed), labels(system, "jump", packed)
+    assert (net.arguments, net.result, net.factor) == (("e - x",), "u [N]", pytest.approx(3.0))
+    assert (jump.arguments, jump.result, jump.factor) == (("x [m]",), "x [m]", pytest.approx(1.0))

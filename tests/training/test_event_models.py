@@ -1,6 +1,6 @@
 """Laws learned in models with events, against the truth that made the data."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import jax
@@ -10,6 +10,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import electrical as el
+from acausal.networks import Law as Network
 from acausal.networks import law_of
 from tests.support.hybrid import Ball
 from tests.support.hybrid_training import (
@@ -110,3 +111,44 @@ def test_a_converter_learns_how_its_inductor_saturates() -> None:
     inside = i > 3
     assert fit.loss < 0.01
     assert np.max(np.abs(learned[inside] / flux[inside] - 1)) < 0.02
+
+
+class SampledLoop(ac.Component):
+    """A controller that looks every 0.25 s, and the actuator that it moves."""
+
+    r = ac.Input()
+    u = ac.Discrete(0.0)
+    x = ac.Variable(start=0.0)
+    controller = ac.Module()
+    actuator = ac.Module()
+
+    def __init__(self) -> None:
+        linear = Network(input_scale=10.0, output_scale=10.0)
+        super().__init__(controller=linear, actuator=linear)
+
+    def equations(self) -> Iterator[ac.Eq | ac.When]:
+        yield ac.Eq(ac.der(self.x), self.actuator(self.u) - self.x)
+        yield ac.When(ac.sample(0.0, 0.25), ac.Eq(self.u, self.controller(self.r - self.x)))
+
+
+def test_laws_called_at_events_are_trained_and_those_of_discrete_variables_see_their_values() -> (
+    None
+):
+    system, times = ac.compile(SampledLoop()), np.linspace(0.0, 4.0, 81)
+    r = 3 * np.sin(times)
+
+    def run(params: Any) -> ac.Solution:
+        steps: dict[str, Any] = {"dt": 0.05, "solver": "heun"}
+        return ac.simulate(system, (0.0, 4.0), inputs={"r": (times, r)}, params=params, **steps)
+
+    before = system.parameters()
+    data = ac.Data(times, {"r": r, "x": 1.1 * np.asarray(run(before)["x"])})
+    options: dict[str, Any] = {"strategy": "whole_record", "epochs": 2, "x0": "model"}
+    fit = ac.fit(system, data, ["x"], regularizers=[lambda *_: 0.0], **options)
+    for name in ("controller", "actuator"):
+        assert float(before[name](1.0)) != float(fit.params[name](1.0))
+    context, found = fit.problem.context, run(fit.params)
+    np.testing.assert_allclose(context.arguments["actuator"][:, 0], run(before)["u"], atol=1e-9)
+    np.testing.assert_allclose(fit.arguments["actuator"][:, 0], found["u"], atol=1e-9)
+    e = r - np.asarray(found["x"])
+    np.testing.assert_allclose(fit.arguments["controller"][:, 0], e, atol=1e-9)

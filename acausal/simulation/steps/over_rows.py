@@ -151,7 +151,7 @@ def integrate_in_steps(
             of an event included; ``None``: as many as it takes.
 
     Returns:
-        States and outputs at the rows' starts, and the state at the end; NaN from where a step cannot be made.
+        What holds at the rows' starts and at the end; states are NaN from where a step cannot be made.
     """
     events, dtype = system.events, start.x.dtype
     d0 = None
@@ -209,12 +209,12 @@ def integrate_in_steps(
         x = jnp.where(restarts.begins[:, None], restarts.first, x)
     end = jnp.where(found.why == REACHED, found.x, jnp.nan)
     if not outputs:
-        return Integrated(x, None, end, found.log, found.d)
+        return Integrated(x, None, end, found.log, d, found.d)
 
     def read(at: Array, x: Array, d: Array | None) -> Array:
         return system.read(tuple(outputs), clock.with_discrete(d).at(at).values(x))
 
-    return Integrated(x, jax.vmap(read)(edges[:-1], x, d), end, found.log, found.d)
+    return Integrated(x, jax.vmap(read)(edges[:-1], x, d), end, found.log, d, found.d)
 
 
 def _divided(edges: Float[Array, " n_1"], substeps: int) -> Float[Array, " n_breaks"]:

@@ -245,11 +245,10 @@ def _scales(
     if not shapes:
         return {}
     problem, records = start.problem, start.problem.records
-    x = problem.simulate(start.trainable).x
-    if not explains and records.x is not None:
-        x = records.x
+    found = problem.simulate(start.trainable)
+    x = found.x if explains or records.x is None else records.x
     known = jnp.asarray(np.flatnonzero(np.isfinite(np.asarray(x)).all(axis=1)))
-    seen = problem.seen(start.trainable, x, known)
+    seen = problem.seen(start.trainable, x, found.d, known)
     return {
         n: _scales_of(np.asarray(seen[n]), start.laws[n], start.sensitive[n], shapes[n])
         for n in shapes

@@ -113,14 +113,16 @@ def jacobians(
 ) -> Float[Array, "points n n"]:
     """``∂(dx/dt)/∂x`` at points of a trajectory; see `Modal` for the arguments."""
     rows = np.unique(np.linspace(0, len(trajectory.t) - 1, points).astype(int))
-    t, x, u = (a[rows] for a in (trajectory.t, trajectory.x, trajectory.u))
+    t, x, u, d = jax.tree.map(
+        lambda a: a[rows], (trajectory.t, trajectory.x, trajectory.u, trajectory.d)
+    )
     centre = trajectory.x.mean(axis=0)
     system, packed = trajectory.system, trajectory.system.pack(params)
 
-    def jacobian(t: Array, x: Array, u: Array) -> Float[Array, "n n"]:
-        return jax.jacfwd(lambda x: system.rates(Values(t, x, u, packed)))(x)
+    def jacobian(t: Array, x: Array, u: Array, d: Array | None) -> Float[Array, "n n"]:
+        return jax.jacfwd(lambda x: system.rates(Values(t, x, u, packed, d)))(x)
 
-    return jax.vmap(jacobian)(t, centre + reach * (x - centre), u)
+    return jax.vmap(jacobian)(t, centre + reach * (x - centre), u, d)
 
 
 @jax.custom_jvp

@@ -271,26 +271,27 @@ class Problem(Simulator):
             return self.compare((found if p is params else self._all(p, trainable)).y)
 
         total = self.parameter_spread.mean(loss, params)
-        return Simulated(total, found.x, found.y, found.log)
+        return found._replace(loss=total)
 
     def _all(self, params: dict[str, Any], trainable: Trainable) -> Simulated:
         """States and targets at every row, without a loss yet."""
         found = self.integrate_all(self.pack(params, trainable), trainable)
         assert found.y is not None
-        return Simulated(jnp.zeros(()), found.x, found.y, found.log)
+        return Simulated(jnp.zeros(()), found.x, found.y, found.log, found.d)
 
     @compiled
     def seen(
         self,
         trainable: Trainable,
         x: Float[Array, "N n_states"],
+        d: Float[Array, "N n_discrete"] | None,
         rows: Int[Array, " n_rows"] | None = None,
     ) -> dict[str, Float[Array, "n_calls n_arguments"]]:
-        """The arguments of every network in the states ``x``.
+        """The arguments of every network in some states.
 
         Arguments:
             trainable: some state of the training.
-            x: states at every row.
+            x, d: states and discrete variables at every row.
             rows: indices of rows; ``None`` for all.
 
         The calls of a network with several places in the model follow each other row by row.
@@ -298,13 +299,13 @@ class Problem(Simulator):
         packed = self.pack(self.assemble(trainable), trainable)
         steps, of = self.steps(packed, rows), self.records.of
         if rows is not None:
-            x, of = x[rows], of[rows]
-        points = (steps.t, x, steps.inputs.start, of)
+            x, d, of = jax.tree.map(lambda a: a[rows], (x, d, of))
+        points = (steps.t, x, steps.inputs.start, d, of)
 
         def at(name: str) -> Float[Array, "n_calls n_arguments"]:
-            def one(t: Array, x: Array, u: Array, record: Array) -> Array:
+            def one(t: Array, x: Array, u: Array, d: Array | None, record: Array) -> Array:
                 own = self.packed_of(packed, record)
-                return arguments(self.system, name, Values(t, x, u, own))
+                return arguments(self.system, name, Values(t, x, u, own, d))
 
             values = jax.vmap(one)(*points)
             return values.reshape(-1, values.shape[-1])

@@ -36,13 +36,14 @@ class Trajectory(eqx.Module):
 
     Attributes:
         system: the model.
-        t, x, u: samples of time, states and inputs.
+        t, x, u, d: samples of time, states, inputs and discrete variables.
     """
 
     system: System = eqx.field(static=True)
     t: Float[Array, " N"]
     x: Float[Array, "N n_states"]
     u: Float[Array, "N n_inputs"]
+    d: Float[Array, "N n_discrete"] | None = None
 
 
 class Context(eqx.Module):

@@ -36,9 +36,11 @@ class Simulated(NamedTuple):
         x: the states at every row.
         y: the targets at every row.
         log: what has happened, in a model with events.
+        d: the discrete variables at every row of such a model.
     """
 
     loss: Float[Array, ""]
     x: Float[Array, "N n_states"]
     y: Float[Array, "N n_targets"]
     log: Log | None = None
+    d: Float[Array, "N n_discrete"] | None = None
