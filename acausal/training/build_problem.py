@@ -314,11 +314,12 @@ def _states_before_training(
         TrainingError: if the model diverges.
     """
     measured = problem.records.x
-    known = measured is not None and not bool(jnp.isnan(measured).any())
-    if known and problem.system.events is None:
+    if measured is not None and bool(jnp.isnan(measured).any()):
+        measured = None
+    if measured is not None and problem.system.events is None:
         return measured, None
     found = problem.simulate(problem.start())
-    x = measured if known else found.x
+    x = found.x if measured is None else measured
     if not bool(jnp.isfinite(x).all()):
         raise TrainingError(
             "The model diverges over its records before training; start from better parameters."

@@ -90,7 +90,7 @@ class Sampled(ac.Component):
     def __init__(self) -> None:
         super().__init__(net=Double(), jump=Double())
 
-    def equations(self) -> Iterator[ac.Eq | ac.When]:
+    def equations(self) -> Iterator[Any]:
         yield ac.Eq(ac.der(self.x), self.u)
         yield ac.When(ac.sample(0.0, 1.0), ac.Eq(self.u, 3 * self.net(self.e - self.x)))
         yield ac.When(self.x > 1, ac.Reinit(self.x, self.jump(self.x)))

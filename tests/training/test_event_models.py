@@ -4,14 +4,14 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 import optax
 import pytest
 
 import acausal as ac
 from acausal.components import electrical as el
-from acausal.networks import Law as Network
-from acausal.networks import law_of
+from acausal.networks import Law as Network, law_of
 from tests.support.hybrid import Ball
 from tests.support.hybrid_training import (
     Convection,
@@ -126,7 +126,7 @@ class SampledLoop(ac.Component):
         linear = Network(input_scale=10.0, output_scale=10.0)
         super().__init__(controller=linear, actuator=linear)
 
-    def equations(self) -> Iterator[ac.Eq | ac.When]:
+    def equations(self) -> Iterator[Any]:
         yield ac.Eq(ac.der(self.x), self.actuator(self.u) - self.x)
         yield ac.When(ac.sample(0.0, 0.25), ac.Eq(self.u, self.controller(self.r - self.x)))
 
@@ -144,7 +144,7 @@ def test_laws_called_at_events_are_trained_and_those_of_discrete_variables_see_t
     before = system.parameters()
     data = ac.Data(times, {"r": r, "x": 1.1 * np.asarray(run(before)["x"])})
     options: dict[str, Any] = {"strategy": "whole_record", "epochs": 2, "x0": "model"}
-    fit = ac.fit(system, data, ["x"], regularizers=[lambda *_: 0.0], **options)
+    fit = ac.fit(system, data, ["x"], regularizers=[lambda *_: jnp.zeros(())], **options)
     for name in ("controller", "actuator"):
         assert float(before[name](1.0)) != float(fit.params[name](1.0))
     context, found = fit.problem.context, run(fit.params)
