@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -14,6 +15,7 @@ from scipy.signal import lfilter
 
 import acausal as ac
 from acausal.components import translational as tl
+from acausal.networks import Law
 from acausal.training.uncertainty.confidence import TAKEN
 from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
 from acausal.training.uncertainty.residuals import Piece, residuals
@@ -346,3 +348,35 @@ def test_a_learned_law_is_distilled():
         ac.TrainingError, match=r"^There is no trained network 'extra': did you mean"
     ):
         trained().distill("extra")
+
+
+class Cell(ac.Component):
+    """A voltage that depends on a charge, which nothing measures."""
+
+    i = ac.Input()
+    charge = ac.Variable(start=0.5)
+    v = ac.Variable()
+    law = ac.Module()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.charge), -self.i)
+        yield ac.Eq(self.v, self.law(self.charge))
+
+
+def test_a_start_that_a_law_can_take_is_said_and_widens_its_band() -> None:
+    """The law may be shifted by any charge, and the start with it: here the truth starts at 0.7."""
+    t, rng = np.linspace(0.0, 10.0, 201), np.random.default_rng(0)
+    i = 0.04 + 0.2 * np.sin(2 * t)
+    charge = 0.7 - 0.04 * t - 0.1 * (1 - np.cos(2 * t))
+    truth = lambda q: 3 + 0.4 * q + 0.2 * np.tanh(4 * (q - 0.3))  # noqa: E731
+    v = truth(charge) + 0.005 * rng.standard_normal(len(t))
+    cell = ac.compile(Cell(law=Law()))
+    fit = ac.fit(cell, ac.Data(t, {"i": i, "v": v}), ["v"], progress=False)
+    known = fit.confidence()
+    assert known.starts == {"charge": ("law",)}
+    assert "tell where 'charge' starts from 'law'" in repr(fit)
+    band = known.laws["law"]
+    seen = (band.x > fit.ranges["law"][0][0]) & (band.x < fit.ranges["law"][0][1])
+    miss = np.abs(band.law - truth(band.x))[seen]
+    assert miss.max() > 0.05
+    assert (miss < 3 * band.sigma[seen]).all()

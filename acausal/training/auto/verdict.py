@@ -19,6 +19,7 @@ from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.trained_model import TrainedModel
+from acausal.training.uncertainty.confidence import Band
 
 DOWN_TO = 1.15
 """A loss of up to so many times that of the noise is down to the noise,"""
@@ -148,28 +149,35 @@ def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
     if fit.settings.get("strategy") != "auto":
         return
     try:
-        laws = fit.confidence().laws
+        found = fit.confidence()
     except TrainingError:  # derivatives that are not finite, as at events
         return
-    for name, band in laws.items():
-        low, high = np.quantile(fit.arguments[name][:, 0], MOST_SEEN)
-        seen = (band.x >= low) & (band.x <= high)
-        size = np.ptp(band.law[seen]) if seen.any() else 0.0
-        if not size > 0:
-            continue
-        doubt = 2 * band.sigma / size
-        even, over = seen & ~band.steep, doubt / np.where(band.steep, STEEP, LOOSE)
-        if even.any() and (usual := float(np.median(doubt[even]))) > LOOSE:
-            yield (
-                f"The record hardly determines {name}: it is known to {100 * usual:.2g} % of its range only "
-                "(two standard deviations). Measure more, or where it matters more."
-            )
-        elif over[seen].max() > 1:
-            k = int(np.argmax(np.where(seen, over, 0.0)))
-            yield (
-                f"{name} is known to {100 * doubt[k]:.2g} % of its range only near {band.x[k]:.2g} (two standard "
-                f"deviations){', where it is steep' * bool(band.steep[k])}. Measure more there."
-            )
+    doubts = {n: text for n, band in found.laws.items() if (text := _doubt(fit, n, band))}
+    yield from found.unknown_starts(doubts)
+    yield from doubts.values()
+
+
+def _doubt(fit: TrainedModel, name: str, band: Band) -> str | None:
+    """How a law could be quite different, in a sentence; ``None`` for one that is known well."""
+    low, high = np.quantile(fit.arguments[name][:, 0], MOST_SEEN)
+    seen = (band.x >= low) & (band.x <= high)
+    size = np.ptp(band.law[seen]) if seen.any() else 0.0
+    if not size > 0:
+        return None
+    doubt = 2 * band.sigma / size
+    even, over = seen & ~band.steep, doubt / np.where(band.steep, STEEP, LOOSE)
+    if even.any() and (usual := float(np.median(doubt[even]))) > LOOSE:
+        return (
+            f"The record hardly determines {name}: it is known to {100 * usual:.2g} % of its range only "
+            "(two standard deviations). Measure more, or where it matters more."
+        )
+    if not over[seen].max() > 1:
+        return None
+    k = int(np.argmax(np.where(seen, over, 0.0)))
+    return (
+        f"{name} is known to {100 * doubt[k]:.2g} % of its range only near {band.x[k]:.2g} (two standard "
+        f"deviations){', where it is steep' * bool(band.steep[k])}. Measure more there."
+    )
 
 
 def _left(fit: TrainedModel) -> Iterator[str]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from itertools import starmap
 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from acausal.errors import listing
 from acausal.reporting import Curve, Html, View, small_plot
 from acausal.training.objective.prior import Prior
 
@@ -97,6 +99,7 @@ class Confidence:
         step_move: by how many standard deviations the error of the integration's steps moves laws and parameters at
             most; the deviations do not count it.
         about: how well each parameter is known, one sentence each.
+        starts: by state whose start is not measured, the laws that can take any part of it; their bands count that.
         prior: the same as the prior of a later training, which `acausal.fit` takes from ``prior=fit``.
     """
 
@@ -110,6 +113,7 @@ class Confidence:
     unexplained: dict[str, float]
     step_move: float
     about: tuple[str, ...]
+    starts: dict[str, tuple[str, ...]]
     prior: Prior
 
     def _repr_html_(self) -> str:
@@ -156,7 +160,23 @@ class Confidence:
             for n, count in self.alike.items()
             if count > CORRELATED
         ]
-        return [*self.about, *confused, *taken, *slow, *self._ignored()]
+        return [
+            *self.about,
+            *confused,
+            *taken,
+            *self.unknown_starts(self.laws),
+            *slow,
+            *self._ignored(),
+        ]
+
+    def unknown_starts(self, of: Collection[str]) -> list[str]:
+        """Which starts of states the data cannot tell from some laws, a sentence each."""
+        return [
+            f"The data can hardly tell where '{state}' starts from {listing(laws)}: say where (x0={{'{state}': ...}}), "
+            "or measure it."
+            for state, laws in self.starts.items()
+            if not set(of).isdisjoint(laws)
+        ]
 
     def _ignored(self) -> list[str]:
         """What the deviations do not count."""

@@ -45,6 +45,9 @@ UNKNOWN = 0.9
 POINTS_EACH = 4
 """Points for each bump at which a later training compares a law with what is known."""
 
+SHARE = 0.1
+"""A law whose change is a smaller part of that of all laws is not said to change with a start."""
+
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
 
@@ -96,9 +99,12 @@ def confidence(
         [any(v > TAKEN for v in laws.values()) for laws in with_laws.values()], dtype=bool
     )
     known = np.where(taken, np.maximum(sigma, change.of_parameters), sigma)
+    starts = _start_moves(change, effects)
+    moves = np.stack([onward[: len(change.heights)], *starts.values()])
+    places = split(change.bumped, np.arange(len(onward)))[0]
     bands = {
-        name: _band(change, name, onward[own], covariance[np.ix_(own, own)])
-        for name, own in split(change.bumped, np.arange(len(onward)))[0].items()
+        name: _band(change, name, moves[:, own], covariance[np.ix_(own, own)])
+        for name, own in places.items()
     }
     return Confidence(
         bands,
@@ -111,6 +117,10 @@ def confidence(
         _unexplained(problem, left),
         step_move,
         _about(change, sigma, taken),
+        {
+            state: tuple(n for n, own in places.items() if np.ptp(move[own]) > SHARE * np.ptp(move))
+            for state, move in starts.items()
+        },
         _as_prior(change, found.root / change.deviations, alike),
     )
 
@@ -228,6 +238,27 @@ def _with_laws(
     }
 
 
+def _start_moves(
+    change: Changes, effects: Float[np.ndarray, "rows n"]
+) -> dict[str, Float[np.ndarray, " n_bumps"]]:
+    """By state whose start is not measured, how the laws change with it where they can take any part of it.
+
+    The change is that of all bumps for one standard deviation of the start.
+    """
+    problem, bumps = change.problem, effects[:, : len(change.heights)]
+    if change.trainable.starts is None or not bumps.size:
+        return {}
+    unknown = np.isnan(np.asarray(problem.first_states.given)).any(axis=0)
+    first = change.own.start + len(problem.per_record.names)
+    columns = {problem.system.states[i]: effects[:, first + i] for i in np.flatnonzero(unknown)}
+    known = bumps.T @ bumps + np.eye(bumps.shape[1])
+    return {
+        state: change.heights * np.linalg.solve(known, bumps.T @ column)
+        for state, column in columns.items()
+        if correlation_with(column, bumps) > TAKEN
+    }
+
+
 def _about(
     change: Changes,
     sigma: Float[np.ndarray, " n_parameters"],
@@ -287,14 +318,16 @@ def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> di
 def _band(
     change: Changes,
     name: str,
-    onward: Float[np.ndarray, " n_bumps"],
+    moves: Float[np.ndarray, "n n_bumps"],
     covariance: Float[np.ndarray, "n_bumps n_bumps"],
 ) -> Band:
+    """A law with its deviation: what the covariance says, and further changes that are as likely."""
     network, bumped = change.params[name], change.bumped[name]
     x = np.asarray(bumped.points(BAND_POINTS))
     rest = change.seen[name][:, 1:].mean(axis=0)
     shapes = np.asarray(bumps_at(bumped, x))
-    variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes) + (shapes @ onward) ** 2
+    variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
+    variance += np.sum((shapes @ moves.T) ** 2, axis=1)
     kept = kept_promises(network)
     sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0
     return Band(
