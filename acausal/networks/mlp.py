@@ -195,7 +195,9 @@ def check_inputs(network: object, inputs: Sequence[ArrayLike], expected: int) ->
     """
     name, wanted = type(network).__name__, f"{expected} input{'s' * (expected != 1)}"
     if len(inputs) != expected:
-        remedy = "give the others, too" if len(inputs) < expected else "leave out the others"
+        more = f"make it with as many, Law(secondary={len(inputs) - 1}) or MLP({len(inputs)})"
+        few = len(inputs) < expected
+        remedy = "give the others, too" if few else f"leave out the others, or {more}"
         raise DeclarationError(
             f"{name}: a network of {wanted} is called with {len(inputs)}; {remedy}"
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import equinox as eqx
@@ -31,7 +32,10 @@ Span: TypeAlias = tuple[float, float]
 FORMS = "a number, samples, (times, samples), an acausal.Signal, or a function of time"
 
 KINKS = 10_000
-"""Adaptive steps end at the samples of an input that is interpolated linearly, if these are at most so many."""
+"""Adaptive steps end at the samples of inputs that are interpolated linearly; of more than so many, at rough ones."""
+
+ROUGH = 1e-4
+"""A kink is rough if the slope changes by more than this part of the signal's range over a sample time."""
 
 STRAIGHT = 1e-9
 """A change of slope that is not a corner, relative to the largest slope."""
@@ -322,26 +326,30 @@ def breaks(
 ) -> tuple[Float[np.ndarray, " n_breaks"], Bool[np.ndarray, " n_breaks"]]:
     """Times between ``start`` and ``end`` at which an input is known to jump, or to have a kink; and which jump.
 
-    Of lines between more than `KINKS` samples, none: steps that end at each would take longer than those that an
-    estimate of their error chooses.
+    Of lines with more than `KINKS` kinks, only the `ROUGH` ones: a smooth signal of many samples is passed over faster
+    in steps that an estimate of their error chooses.
     """
     signals = [f for f in functions if isinstance(f, Signal) and not traced(f.ts)]
     jumping = _times([f for f in signals if f.jumps], start, end)
-    bent = _times([f for f in signals if f.interpolation == "linear"], start, end, _corners)
+    lines = [f for f in signals if f.interpolation == "linear"]
+    bent = _times(lines, start, end, _corners)
     if len(bent) > KINKS:
-        bent = bent[:0]
+        bent = _times(lines, start, end, partial(_corners, rough=True))
     ts = np.union1d(jumping, bent)
     return ts, np.isin(ts, jumping)
 
 
-def _corners(signal: Signal) -> Float[np.ndarray, " n"]:
-    """The times at which the slope changes; all samples where JAX traces their values."""
+def _corners(signal: Signal, *, rough: bool = False) -> Float[np.ndarray, " n"]:
+    """The times at which the slope changes, much if ``rough``; all samples where JAX traces their values."""
     ts = np.asarray(signal.ts)
     if traced(signal.values):
         return ts
-    slopes = np.diff(np.asarray(signal.values)) / np.diff(ts)
+    values, lengths = np.asarray(signal.values), np.diff(ts)
+    slopes = np.diff(values) / lengths
     change = np.abs(np.diff(slopes))
     corners = change > STRAIGHT * np.max(np.abs(slopes), initial=0.0)
+    if rough:
+        corners &= change * np.minimum(lengths[1:], lengths[:-1]) > ROUGH * np.ptp(values)
     return ts[np.concatenate([[True], corners, [True]])]
 
 

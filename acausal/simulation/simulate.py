@@ -100,7 +100,7 @@ def simulate(
         atol: absolute tolerance of an adaptive step, in the states' units, above 0, one for all or an array; by default
             1e-8, and where all states of a unit stay below 1e-4, 1e-8 of the largest: then the simulation is made
             again. Where JAX traces it, as in `jax.jit` and `jax.grad`, that cannot be seen: give ``atol`` there.
-        max_steps: limit of adaptive steps. Each edge of a source allows eight more.
+        max_steps: limit of adaptive steps. Each edge of a source, and each jump or kink of an input, allows eight more.
         max_step: the longest adaptive step, in seconds; by default a fiftieth of the span, ``inf`` for none. Steps end
             where sources and tables jump or bend, take at most an eighth of the period of a sine of time, and are
             checked at two points within. What is shorter than 0.4 % of the span and known to none of these, as in a

@@ -408,5 +408,22 @@ def test_adaptive_steps_end_at_corners_and_jumps_of_inputs_only():
     ts, jumps = breaks((held, ramp, lambda t: t), 0.0, 4.0)
     np.testing.assert_allclose(ts, [1.0, 2.0, 2.5])
     assert jumps.tolist() == [True, True, False]
-    dense = ac.Signal(np.linspace(0, 4, 20_001), np.sin(np.linspace(0, 4, 20_001)))
-    assert len(breaks((dense,), 0.0, 4.0)[0]) == 0
+    t, noise = np.linspace(0, 4, 20_001), np.random.default_rng(0).standard_normal(20_001)
+    assert len(breaks((ac.Signal(t, np.sin(t)),), 0.0, 4.0)[0]) == 0
+    assert len(breaks((ac.Signal(t, np.sin(t) + 0.01 * noise),), 0.0, 4.0)[0]) > 19_000
+
+
+class Lag(ac.Component):
+    u = ac.Input()
+    x = ac.Variable(start=0.0)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u - self.x)
+
+
+def test_rough_inputs_of_many_samples_take_one_step_from_each_to_the_next():
+    t, rng = np.linspace(0.0, 4.0, 20_001), np.random.default_rng(0)
+    rough = {"u": (t, rng.standard_normal(len(t)).cumsum())}
+    found = ac.simulate(ac.compile(Lag()), 4.0, inputs=rough, max_steps=1000)
+    assert found.statistics is not None
+    assert found.statistics.steps + found.statistics.rejected < 1.2 * len(t)

@@ -21,7 +21,7 @@ from acausal.simulation.solution import Solution
 from acausal.simulation.statistics import Statistics
 from acausal.simulation.steps.loop import CHATTERS, EXHAUSTED, NOT_CONVERGED, REACHED, LoopResult
 from acausal.simulation.steps.methods import paced
-from acausal.simulation.steps.problem import Integration, RightHandSide
+from acausal.simulation.steps.problem import EDGE_STEPS, Integration, RightHandSide
 from acausal.simulation.steps.solve import FirstRun, Solved, begin_to_compile, first_run, solve
 
 Tolerance = float | Array
@@ -106,7 +106,7 @@ class InSteps:
     def _posed(self, run: Run) -> FirstRun:
         ts, jumps = breaks(run.inputs, run.begin, run.end)
         method: Any = self.solver
-        max_steps, max_step = self.max_steps, self.max_step
+        max_steps, max_step = self.max_steps + EDGE_STEPS * len(ts), self.max_step
         if self.ends is not None:
             inner = np.union1d(ts, self.ends[1:-1])
             ts, jumps = inner, np.isin(inner, ts[jumps])

@@ -19,7 +19,7 @@ SIDE = 16.0
 """Two times are apart if they differ by so many rounding errors."""
 
 EDGE_STEPS = 8
-"""An edge of the right-hand side allows so many more steps; all in all, there may be so many times ``max_steps``."""
+"""So many more steps for each edge of the right-hand side, all in all so many times ``max_steps``; and of inputs."""
 
 
 class RightHandSide(eqx.Module):
