@@ -12,12 +12,13 @@ correlated residuals count for less than one each.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import compiled, value_and_jacobian
 from acausal.errors import TrainingError
@@ -45,8 +46,8 @@ UNKNOWN = 0.9
 POINTS_EACH = 4
 """Points for each bump at which a later training compares a law with what is known."""
 
-SHARE = 0.1
-"""A law whose change is a smaller part of that of all laws is not said to change with a start."""
+SHARE = 0.3
+"""Of a law's deviation: what changes with a start by less is not said to."""
 
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
@@ -117,10 +118,7 @@ def confidence(
         _unexplained(problem, left),
         step_move,
         _about(change, sigma, taken),
-        {
-            state: tuple(n for n, own in places.items() if np.ptp(move[own]) > SHARE * np.ptp(move))
-            for state, move in starts.items()
-        },
+        _taken_by(starts, places, np.diag(covariance)),
         _as_prior(change, found.root / change.deviations, alike),
     )
 
@@ -257,6 +255,23 @@ def _start_moves(
         for state, column in columns.items()
         if correlation_with(column, bumps) > TAKEN
     }
+
+
+def _taken_by(
+    starts: Mapping[str, Float[np.ndarray, " n_bumps"]],
+    places: Mapping[str, Int[np.ndarray, " n"]],
+    variance: Float[np.ndarray, " n_common"],
+) -> dict[str, tuple[str, ...]]:
+    """By state, the laws that change with its start by a good part of what is not known of them anyway."""
+    found = {
+        state: tuple(
+            name
+            for name, own in places.items()
+            if np.linalg.norm(move[own]) > SHARE * np.sqrt(np.sum(variance[own]))
+        )
+        for state, move in starts.items()
+    }
+    return {state: laws for state, laws in found.items() if laws}
 
 
 def _about(
