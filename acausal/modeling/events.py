@@ -24,6 +24,7 @@ from acausal.modeling.symbols import (
     number_or_expression,
     time,
 )
+from acausal.modeling.written import as_written
 
 INITIAL = sp.Symbol("initial()", real=True)
 """1 while initial values are being found, else 0."""
@@ -261,7 +262,7 @@ class Reinit:
         )
 
     def __str__(self) -> str:
-        return f"Reinit({self.state}, {self.value})"
+        return f"Reinit({self.state}, {as_written(self.value)})"
 
 
 class When:
@@ -295,6 +296,5 @@ class When:
             link = link.otherwise
 
     def __str__(self) -> str:
-        return (
-            f"When({', '.join(map(str, self.conditions))}, {', '.join(map(str, self.statements))})"
-        )
+        parts = *map(as_written, self.conditions), *map(str, self.statements)
+        return f"When({', '.join(parts)})"

@@ -19,6 +19,7 @@ from sympy.logic.boolalg import Boolean
 
 from acausal.errors import DeclarationError, shown
 from acausal.modeling.declarations import Declaration, element_names
+from acausal.modeling.written import as_written
 
 HALF = sp.Rational(1, 2)
 COMPARED_WITH = (bool, int, float, np.number, sp.Expr)
@@ -273,7 +274,7 @@ class Eq:
         return found
 
     def __str__(self) -> str:
-        return f"{self.lhs} = {self.rhs}"
+        return f"{as_written(self.lhs)} = {as_written(self.rhs)}"
 
 
 def _side(value: Any, where: str) -> Any:

@@ -1,4 +1,4 @@
-"""What an author wrote, as text: defaults, and declarations with those of their arguments that were given."""
+"""What an author wrote, as text: expressions, defaults, and declarations with the arguments that were given."""
 
 from __future__ import annotations
 
@@ -8,8 +8,60 @@ from functools import cache
 from typing import Any
 
 import sympy as sp
+from sympy.core.relational import Relational
+from sympy.printing.str import StrPrinter
 
 from acausal.errors import shortened
+
+
+def as_written(expression: object) -> str:
+    """The text of an expression or a condition, for messages and pages."""
+    return _AsWritten().doprint(expression)
+
+
+class _AsWritten(StrPrinter):
+    """A signal counts as true above 1/2, and whole numbers are equal if they differ by less."""
+
+    def _print_Relational(self, expr: Any) -> str:
+        if _is_flag(expr):
+            text = self.parenthesize(expr.lhs, 1000, strict=True)
+            return text if isinstance(expr, sp.Gt) else f"~{text}"
+        if expr.rhs is not sp.S.Half or not isinstance(expr.lhs, sp.Abs):
+            return super()._print_Relational(expr)
+        terms = sp.Add.make_args(expr.lhs.args[0])
+        right = sp.Add(*(-term for term in terms if term.could_extract_minus_sign()))
+        sign = "==" if isinstance(expr, sp.Lt) else "!="
+        return f"{self._print(expr.lhs.args[0] + right)} {sign} {self._print(right)}"
+
+    def _print_And(self, expr: Any) -> str:
+        texts = set(map(self._inner, expr.args))
+        edges = {text for text in texts if f"~pre({text})" in texts}
+        kept = texts - edges - {f"~pre({text})" for text in edges}
+        return " & ".join(sorted({*kept, *(f"edge({text})" for text in edges)}))
+
+    def _print_Or(self, expr: Any) -> str:
+        return " | ".join(sorted(map(self._inner, expr.args)))
+
+    def _inner(self, condition: sp.Basic) -> str:
+        """A condition among others."""
+        text = self._print(condition)
+        return (
+            f"({text})"
+            if isinstance(condition, Relational | sp.And | sp.Or) and not _is_flag(condition)
+            else text
+        )
+
+    def _print_Piecewise(self, expr: Any) -> str:
+        *pieces, (last, condition) = expr.args
+        if condition is not sp.true:
+            return self._print_Function(expr)
+        cases = "".join(f"where({self._print(c)}, {self._print(v)}, " for v, c in pieces)
+        return f"{cases}{self._print(last)}{')' * len(pieces)}"
+
+
+def _is_flag(condition: Any) -> bool:
+    """Whether a condition is that a signal is true, or that it is not."""
+    return isinstance(condition, sp.Gt | sp.Le) and condition.rhs is sp.S.Half
 
 
 def default_text(default: Any) -> str:
