@@ -72,14 +72,15 @@ def _is_optimizer(value: Any) -> bool:
     return not isinstance(value, type) and hasattr(value, "init") and hasattr(value, "update")
 
 
+DEVIATIONS = "standard deviations by name, such as {'mass.m': 0.1}"
 KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "train": (_are_texts, "names of networks"),
     "modifiers": (_are_texts, "names of parameters, nor modifiers by name"),
     "gamma": (_is_number, "a number"),
-    "per_record": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
-    "delays": (lambda v: isinstance(v, Mapping), "delays by name"),
-    "lags": (lambda v: isinstance(v, Mapping), "time constants by name"),
-    "parameter_spread": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
+    "per_record": (lambda v: isinstance(v, Mapping), DEVIATIONS),
+    "delays": (lambda v: isinstance(v, Mapping), "delays by name, such as {'motor.w': 0.01}"),
+    "lags": (lambda v: isinstance(v, Mapping), "time constants by name, such as {'motor.w': 0.01}"),
+    "parameter_spread": (lambda v: isinstance(v, Mapping), DEVIATIONS),
     "loss": (
         lambda v: isinstance(v, str | ErrorLaw) or callable(v),
         "a loss, by name or as a function",
