@@ -356,8 +356,10 @@ def _edge(problem: Integration, ahead: Ahead, stop: between_events.Stop) -> betw
     sooner = edge < stop.t - apart
     kind = jnp.where(ahead.jump <= ahead.bend + apart, EDGE, BEND)
     there = sooner | ((edge <= stop.t + apart) & (stop.kind == STOP))
+    moved = jnp.where(there, edge, 0.0)  # one that falls on the stop moves it
+    moved = moved - lax.stop_gradient(moved)  # zero, with derivatives
     stop = stop._replace(
-        t=jnp.where(sooner, edge, stop.t),
+        t=jnp.where(sooner, edge, stop.t + moved),
         kind=jnp.where(there, kind, stop.kind).astype(jnp.int32),
     )
     if stop.band is None:
