@@ -132,8 +132,8 @@ def _parameters(relation: Any, component: Component) -> list[Reference]:
 
 def _changes(relation: Any) -> bool:
     """Whether a relation can change in a run, at a time that is not known ahead (see `acausal.codegen.Edges`)."""
-    symbols = relation.free_symbols
-    if any(isinstance(s, Reference) and isinstance(s.declaration, Variable) for s in symbols):
+    declared = [s.declaration for s in relation.free_symbols if isinstance(s, Reference)]
+    if any(isinstance(d, Variable) and not isinstance(d, Discrete) for d in declared):
         return True
     number = relation.lhs - relation.rhs
     floors = number.atoms(sp.floor)

@@ -82,7 +82,12 @@ def simulate_fixed(
     return Solution(start._replace(t=t, x=x, u=u), run.system)
 
 
-def are_split(run: Run, ends: Float[np.ndarray, " n_ends"], adjoint: object) -> bool:
+def are_split(
+    run: Run,
+    ends: Float[np.ndarray, " n_ends"],
+    adjoint: object,
+    solver: solvers.Solver | None = None,
+) -> bool:
     """Whether edges of sources, or jumps of inputs, lie within fixed steps, and divide them.
 
     Where JAX compiles or maps, that is not known, and `DirectAdjoint` asks for a plain scan: `integrate` divides each
@@ -98,7 +103,12 @@ def are_split(run: Run, ends: Float[np.ndarray, " n_ends"], adjoint: object) -> 
     ]
     if np.any(np.abs(near - at) > ON_GRID * (ends[1] - ends[0])):
         return True
-    return bool(run.system.edges) and bool(_off_grid(run.system, packed, jnp.asarray(ends)))
+    if not run.system.edges:
+        return False
+    # a stage beyond its step would see what lies behind an edge at its end
+    if solver is not None and max(tableau_of(solvers.for_fixed_steps(solver)).fractions) > 1:
+        return True
+    return bool(_off_grid(run.system, packed, jnp.asarray(ends)))
 
 
 @compiled
@@ -112,6 +122,7 @@ def _off_grid(system: System, packed: Packed, ends: Float[Array, " n_ends"]) -> 
         return jnp.minimum(ahead.jump, ahead.bend)
 
     def is_on(t: Array) -> Array:
+        apart = SIDE * jnp.finfo(ends.dtype).eps * jnp.abs(t)  # as the stages of each step are
         i = jnp.clip(jnp.searchsorted(ends, t), 1, len(ends) - 1)
         return jnp.minimum(jnp.abs(ends[i] - t), jnp.abs(ends[i - 1] - t)) <= apart
 

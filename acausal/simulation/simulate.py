@@ -171,7 +171,7 @@ def simulate(
     values = system.start_values(packed, None if steady else x0, u_start, start, steady=steady)
     run = Run(system, values, functions, end)
     run.check_start()
-    if ends is not None and system.events is None and not are_split(run, ends, adjoint):
+    if ends is not None and system.events is None and not are_split(run, ends, adjoint, chosen):
         scheme = solvers.solver_named("tsit5", fixed=True) if chosen is None else chosen
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
         solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)

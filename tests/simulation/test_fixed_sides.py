@@ -43,6 +43,11 @@ def test_full_order_at_edges_on_the_grid(lag, solver, order):
     assert np.log2(coarse / fine) == pytest.approx(order, abs=0.4)
 
 
+@pytest.mark.parametrize(("solver", "start"), [("kvaerno5", 0.5), ("rk4", 0.5 - 4e-15)])
+def test_no_stage_looks_behind_an_edge_at_the_end_of_its_step(lag, solver, start):
+    assert errors(lag, start, (0.05,), solver=solver)[0] < 1e-6
+
+
 def test_full_order_at_edges_within_steps(lag):
     coarse, fine = errors(lag, 0.537, (0.1, 0.05), solver="rk4")
     assert coarse < 1e-5

@@ -219,7 +219,9 @@ def advance(
             k = jnp.where(ok & runs, c.counts.steps - before, len(rows.t))  # beyond: dropped
             row = row._replace(next=following)
             rows = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), rows, row)
-        at_break = ok & aim.to_stop & (landing.t >= stop_at(problem, c.ahead))
+        # behind an event, no step as short as rounding leads on to where nothing happens: its rates would be noise
+        early = jnp.where(kinds[c.ahead] == STOP, problem.apart(landing.t), 0.0)
+        at_break = ok & aim.to_stop & (landing.t >= stop_at(problem, c.ahead) - early)
         ahead = (c.ahead + (at_break & (c.ahead < len(problem.breaks)))).astype(jnp.int32)
         searching = jnp.array(False) if seen is None else seen.bracketing.active
         counts = _counted(problem, c.counts, aim, made, landing, row, ok, searching)
@@ -356,8 +358,10 @@ def _edge(problem: Integration, ahead: Ahead, stop: between_events.Stop) -> betw
     sooner = edge < stop.t - apart
     kind = jnp.where(ahead.jump <= ahead.bend + apart, EDGE, BEND)
     there = sooner | ((edge <= stop.t + apart) & (stop.kind == STOP))
+    moved = jnp.where(there, edge, 0.0)  # one that falls on the stop moves it
+    moved = moved - lax.stop_gradient(moved)  # zero, with derivatives
     stop = stop._replace(
-        t=jnp.where(sooner, edge, stop.t),
+        t=jnp.where(sooner, edge, stop.t + moved),
         kind=jnp.where(there, kind, stop.kind).astype(jnp.int32),
     )
     if stop.band is None:

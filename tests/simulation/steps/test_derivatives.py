@@ -1,5 +1,7 @@
 """Derivatives through events: closed forms, differences, both modes, `vmap`, fixed and adaptive steps."""
 
+import warnings
+from collections.abc import Iterator
 from typing import Any
 
 import jax
@@ -216,3 +218,30 @@ def test_the_time_of_a_step_has_a_gradient_in_a_model_without_events(how: dict[s
     exact = -2 * np.exp(-0.7 / 0.5) / 0.5
     assert float(jax.grad(end)(0.3)) == pytest.approx(exact, rel=1e-7)
     assert float(jax.jacfwd(end)(0.3)) == pytest.approx(exact, rel=1e-7)
+
+
+class _Late(ac.Component):
+    """A rate that grows a while after an event; the condition is none itself."""
+
+    wait, level = ac.Parameter(0.2), ac.Parameter(0.4)
+    x = ac.Variable(start=0.0, fixed=True)
+    begun = ac.Discrete(10.0)
+
+    def equations(self) -> Iterator[Any]:
+        late = ac.time > self.begun + self.wait
+        yield ac.Eq(ac.der(self.x), ac.where(late, 3, 1))
+        yield ac.When(self.x > self.level, ac.Eq(self.begun, ac.time))
+
+
+@pytest.mark.parametrize("at", [(0.2, 0.4), (0.23, 0.41)], ids=["on the grid", "within steps"])
+def test_an_edge_that_an_event_moves_has_a_gradient_where_fixed_steps_end(at: Any) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # steps end at the edge, so it has a gradient
+        system = ac.compile(_Late())
+
+    def end(at: Any) -> Any:
+        params = dict(zip(("wait", "level"), at, strict=True))
+        return ac.simulate(system, 1.0, params=params, dt=0.1, solver="rk4")["x"][-1]
+
+    for derivative in (jax.grad, jax.jacfwd):
+        np.testing.assert_allclose(derivative(end)(jnp.array(at)), [-2.0, -2.0], rtol=1e-9)

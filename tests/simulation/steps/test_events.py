@@ -354,3 +354,25 @@ def test_a_clock_that_is_too_fast_for_its_times_is_refused() -> None:
         ac.simulate(system, (0.0, 0.5))
     with pytest.raises(ac.SimulationError, **refused):
         ac.fit(system, ac.Data(times, {name: times}), [name], modifiers=["period"])
+
+
+class _Switched(ac.Component):
+    """A fast lag behind a sine, and a switch at a known time that changes nothing in it."""
+
+    at = ac.Parameter(0.7)
+    x = ac.Variable(start=0.0, fixed=True)
+    on = ac.Discrete(0, kind="bool")
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), 50 * (ac.sin(3 * ac.time) - self.x))
+        yield ac.When(ac.time > self.at, ac.Eq(self.on, 1))
+
+
+def test_an_event_that_rounding_parts_from_the_end_of_an_implicit_step_costs_no_accuracy() -> None:
+    system = ac.compile(_Switched())
+    steps: dict[str, Any] = {"dt": 0.02, "solver": "kvaerno3"}
+    beside = ac.simulate(system, 1.0, **steps)
+    assert 0 < beside.t[35] - 0.7 < 1e-15  # a step of this length would follow
+    without = ac.simulate(system, 1.0, params={"at": 5.0}, **steps)
+    np.testing.assert_allclose(beside["x"], without["x"], atol=1e-12)
+    assert beside["on"][-1] == 1
