@@ -51,17 +51,21 @@ def target(system: System, module: str) -> int:
     return int(targets[known[known_name(module, known, "the model has no module", ModelError)]])
 
 
-def calls(system: System, *modules: str) -> tuple[Calls, ...]:
+def calls(system: System, *modules: str, at_events: bool = False) -> tuple[Calls, ...]:
     """Every call of some modules, in order of the equations.
+
+    Arguments:
+        at_events: whether those count, too, by which variables change at events.
 
     Raises:
         ModelError: for a name that is no module of the model.
     """
-    return tuple(_calls(system, [target(system, module) for module in modules]))
+    wanted = [target(system, module) for module in modules]
+    return tuple(_calls(system, wanted, at_events))
 
 
-def _calls(system: System, wanted: list[int]) -> Iterator[Calls]:
-    for group, call, called in _stated(system):
+def _calls(system: System, wanted: list[int], at_events: bool) -> Iterator[Calls]:
+    for group, call, called in _stated(system, at_events):
         rows = np.isin(called, wanted)
         if rows.any():
             own = partial(
@@ -70,14 +74,17 @@ def _calls(system: System, wanted: list[int]) -> Iterator[Calls]:
             yield Calls(tuple(map(own, call.args[2:])), called[rows])
 
 
-def _stated(system: System) -> Iterator[tuple[EquationGroup, Any, Integers]]:
-    """The calls of modules that equations state, at all times and then at events.
+def _stated(
+    system: System, at_events: bool = True
+) -> Iterator[tuple[EquationGroup, Any, Integers]]:
+    """The calls of modules that equations and conditions state, and then those at events.
 
     Each is given by its group, the call, and the module that each row calls.
     """
     flat, events = system.flat, system.flat.events
     conditions = (guard.group for guard in events.guards)
-    given = (stated.as_equation("target") for stated in (*events.updates, *events.jumps))
+    changes = (*events.updates, *events.jumps) if at_events else ()
+    given = (stated.as_equation("value") for stated in changes)
     for group in (*flat.groups, *conditions, *given):
         if group.template.modules:
             for call in sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key):
@@ -91,7 +98,8 @@ def arguments(system: System, module: str, values: Values) -> Float[Array, "n_ca
     Raises:
         ModelError: for a name that is no module of the model.
     """
-    return jnp.concatenate([found.values(system, values) for found in calls(system, module)])
+    found = calls(system, module, at_events=True)
+    return jnp.concatenate([call.values(system, values) for call in found])
 
 
 @dataclass(frozen=True)
@@ -136,13 +144,10 @@ def labels(system: System, module: str, packed: Packed) -> Labels:
 
 
 def _given(group: EquationGroup, call: Any) -> tuple[Any, Any]:
-    """The variable that is a law times a factor of numbers and parameters; None where it is more than that."""
+    """The variable that is a law times a factor of numbers and parameters, if in one case only; None for more."""
     template, law = group.template, sp.Dummy()
     residual: Any = template.residual.xreplace({call: law})
-    for cases in residual.atoms(sp.Piecewise):
-        values = [value for value, _ in cases.args if value.has(law)]
-        residual = residual.xreplace({cases: values[0]}) if len(values) == 1 else residual
-    residual = sp.expand(residual)
+    residual = sp.expand(residual.replace(sp.Piecewise, lambda *cases: _only_case(law, *cases)))
     others = residual.free_symbols & {*template.variables, time}
     if len(others) == 1:
         (variable,) = others
@@ -152,6 +157,12 @@ def _given(group: EquationGroup, call: Any) -> tuple[Any, Any]:
         if variable in template.variables and rest == 0 and factor.free_symbols <= known:
             return variable, factor
     return None, sp.S.One
+
+
+def _only_case(law: sp.Symbol, *cases: Any) -> Any:
+    """The value in the only one of some cases that has a law; without such a case all of them."""
+    values = [value for value, _ in cases if value.has(law)]
+    return values[0] if len(values) == 1 else sp.Piecewise(*cases)
 
 
 def _label(system: System, group: EquationGroup, expression: Any) -> str:

@@ -174,7 +174,7 @@ class Data(ByName, Formats):
         converted = {
             n: convert(v, given[n], system.unit(n), f"'{n}'") for n, v in self.signals.items()
         }
-        return self._with(self.time, converted, keep_units=False)
+        return self._with(self.time, converted, {n: system.unit(n) for n in converted})
 
     def columns(self, names: Iterable[str], purpose: str) -> Float[np.ndarray, "n n_names"]:
         """The named signals side by side; ``purpose`` is what they are needed for, in an error.
@@ -250,13 +250,17 @@ class Data(ByName, Formats):
         return self._with(self.time, {n: self[n] for n in names_in(names)})
 
     def _with(
-        self, time: np.ndarray, signals: Mapping[str, np.ndarray], *, keep_units: bool = True
+        self,
+        time: np.ndarray,
+        signals: Mapping[str, np.ndarray],
+        units: Mapping[str, str] | None = None,
     ) -> Data:
-        """A record like this one with other samples; its signals keep what was chosen for them."""
+        """A record like this one with other samples; its signals keep what was chosen for them, but for given units."""
+        units = self.units if units is None else units
         return Data(
             time,
             signals,
-            {n: self.units[n] for n in signals} if keep_units and self.units is not None else None,
+            None if units is None else {n: units[n] for n in signals},
             kept(self.interpolation, signals),
             before_start=kept(self.before_start, signals),
             after_end=kept(self.after_end, signals),
@@ -336,7 +340,7 @@ def _warn_of_celsius(signals: Mapping[str, Float[np.ndarray, " n"]], system: Sys
         if usual >= WARM and CELSIUS[0] < low and high < CELSIUS[1]:
             warnings.warn(
                 f"'{name}' lies between {low:.3g} and {high:.3g}, and the model has it in K. If these are degrees "
-                f"Celsius, say so: ac.Data(..., units={{'{name}': 'degC', ...}}).",
+                f"Celsius, say so, ac.Data(..., units={{'{name}': 'degC', ...}}); if they are kelvins, 'K'.",
                 stacklevel=user_level(),
             )
 

@@ -87,14 +87,10 @@ class UpdateGroup:
     previous: tuple[bool, ...]
 
     def as_equation(self, name: str) -> EquationGroup:
-        """The equation ``target - value = 0``, the target as its first variable.
-
-        Arguments:
-            name: of the target's slot.
-        """
+        """The equation ``new name - value = 0``, the target as its first variable."""
         own, template = self.group, self.group.template
         assert isinstance(template, Template)
-        target = sp.Symbol(name, real=True)
+        target = sp.Symbol(f"new {name}", real=True)  # no variable is called so
         equation = replace(
             template,
             residual=target - template.residual,

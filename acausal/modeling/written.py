@@ -8,7 +8,6 @@ from functools import cache
 from typing import Any
 
 import sympy as sp
-from sympy.core.relational import Relational
 from sympy.printing.str import StrPrinter
 
 from acausal.errors import shortened
@@ -26,7 +25,8 @@ class _AsWritten(StrPrinter):
         if _is_flag(expr):
             text = self.parenthesize(expr.lhs, 1000, strict=True)
             return text if isinstance(expr, sp.Gt) else f"~{text}"
-        if expr.rhs is not sp.S.Half or not isinstance(expr.lhs, sp.Abs):
+        whole = isinstance(expr, sp.Lt | sp.Ge) and isinstance(expr.lhs, sp.Abs)
+        if expr.rhs is not sp.S.Half or not whole:
             return super()._print_Relational(expr)
         terms = sp.Add.make_args(expr.lhs.args[0])
         right = sp.Add(*(-term for term in terms if term.could_extract_minus_sign()))
@@ -45,11 +45,8 @@ class _AsWritten(StrPrinter):
     def _inner(self, condition: sp.Basic) -> str:
         """A condition among others."""
         text = self._print(condition)
-        return (
-            f"({text})"
-            if isinstance(condition, Relational | sp.And | sp.Or) and not _is_flag(condition)
-            else text
-        )
+        alone = condition.is_Symbol or isinstance(condition, sp.Not) or _is_flag(condition)
+        return text if alone else f"({text})"
 
     def _print_Piecewise(self, expr: Any) -> str:
         *pieces, (last, condition) = expr.args
@@ -61,7 +58,8 @@ class _AsWritten(StrPrinter):
 
 def _is_flag(condition: Any) -> bool:
     """Whether a condition is that a signal is true, or that it is not."""
-    return isinstance(condition, sp.Gt | sp.Le) and condition.rhs is sp.S.Half
+    is_limit = isinstance(condition, sp.Gt | sp.Le) and condition.rhs is sp.S.Half
+    return is_limit and condition.lhs.is_Symbol
 
 
 def default_text(default: Any) -> str:

@@ -195,7 +195,7 @@ def check_inputs(network: object, inputs: Sequence[ArrayLike], expected: int) ->
     """
     name, wanted = type(network).__name__, f"{expected} input{'s' * (expected != 1)}"
     if len(inputs) != expected:
-        more = f"make it with as many, Law(secondary={len(inputs) - 1}) or MLP({len(inputs)})"
+        more = f"use one with as many, Law(secondary={len(inputs) - 1}) or MLP({len(inputs)})"
         few = len(inputs) < expected
         remedy = "give the others, too" if few else f"leave out the others, or {more}"
         raise DeclarationError(

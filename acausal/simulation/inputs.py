@@ -340,10 +340,10 @@ def breaks(
 
 
 def _corners(signal: Signal, *, rough: bool = False) -> Float[np.ndarray, " n"]:
-    """The times at which the slope changes, much if ``rough``; all samples where JAX traces their values."""
+    """The times at which the slope changes, much if ``rough``; else all samples where JAX traces their values."""
     ts = np.asarray(signal.ts)
     if traced(signal.values):
-        return ts
+        return ts[[0, -1]] if rough else ts
     values, lengths = np.asarray(signal.values), np.diff(ts)
     slopes = np.diff(values) / lengths
     change = np.abs(np.diff(slopes))

@@ -55,6 +55,8 @@ VARIES = 1e-12
 """A target that varies by less than this, relative to its size, counts as constant."""
 
 
+DIVERGES = "The model diverges over its records before training; start from better parameters."
+
 PASSED = 1000
 """The most samples of the records in the context of regularizers; they are evenly spread."""
 
@@ -280,7 +282,7 @@ def _shooting_states(problem: Problem, data: dict[str, Data]) -> ShootingStates:
     records = problem.records
     sequences = problem.sequences
     untrained = replace(problem, first_states=problem.first_states.from_model())
-    passed = np.array(_states_before_training(untrained)[0])
+    passed = np.array(_states_before_training(untrained))
     for i, name in enumerate(problem.system.states):
         for k, record in enumerate(data.values()):
             if name in record.signals:
@@ -298,30 +300,27 @@ def _context(problem: Problem) -> Context:
         TrainingError: if states are not measured, and the model diverges.
     """
     rows = np.unique(np.linspace(0, len(problem.records) - 1, PASSED).astype(int))
-    x, d = _states_before_training(problem)
+    x, d = _states_before_training(problem), None
+    if problem.system.events is not None:
+        d = problem.simulate(problem.start()).d
+    if not all(bool(jnp.isfinite(a).all()) for a in (x, d) if a is not None):
+        raise TrainingError(DIVERGES)
     t = problem.records.steps.t
     own = None if d is None else d[rows]
     passed = Trajectory(problem.system, t[rows], x[rows], problem.inputs[rows], own)
     return Context(problem.networks, problem.seen(problem.start(), x, d, jnp.asarray(rows)), passed)
 
 
-def _states_before_training(
-    problem: Problem,
-) -> tuple[Float[Array, "N n_states"], Float[Array, "N n_discrete"] | None]:
-    """The states at every row, as measured, else as the model has them before training; and its discrete variables.
+def _states_before_training(problem: Problem) -> Float[Array, "N n_states"]:
+    """The states at every row: as measured, else as the model has them before training.
 
     Raises:
         TrainingError: if the model diverges.
     """
     measured = problem.records.x
-    if measured is not None and bool(jnp.isnan(measured).any()):
-        measured = None
-    if measured is not None and problem.system.events is None:
-        return measured, None
-    found = problem.simulate(problem.start())
-    x = found.x if measured is None else measured
+    if measured is not None and not bool(jnp.isnan(measured).any()):
+        return measured
+    x = problem.simulate(problem.start()).x
     if not bool(jnp.isfinite(x).all()):
-        raise TrainingError(
-            "The model diverges over its records before training; start from better parameters."
-        )
-    return x, found.d
+        raise TrainingError(DIVERGES)
+    return x

@@ -171,7 +171,7 @@ def _at_events(flat: FlatModel) -> Iterator[EquationGroup]:
     yield from (guard.group for guard in events.guards)
     for update in (*events.updates, *events.jumps):
         name = flat.layout.variable(int(update.targets[0])).rpartition(".")[2]
-        yield update.as_equation(f"new {name}")
+        yield update.as_equation(name)
 
 
 def _with_numbers(flat: FlatModel, group: EquationGroup, least: bool) -> EquationGroup:

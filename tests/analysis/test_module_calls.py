@@ -83,22 +83,28 @@ class Sampled(ac.Component):
 
     e = ac.Input(unit="m")
     x = ac.Variable(unit="m", start=0.0)
+    target = ac.Input()
     u = ac.Discrete(0.0, unit="N")
+    w = ac.Discrete(0.0)
     net = ac.Module()
+    nested = ac.Module()
     jump = ac.Module()
 
     def __init__(self) -> None:
-        super().__init__(net=Double(), jump=Double())
+        super().__init__(net=Double(), jump=Double(), nested=Double())
 
     def equations(self) -> Iterator[Any]:
         yield ac.Eq(ac.der(self.x), self.u)
-        yield ac.When(ac.sample(0.0, 1.0), ac.Eq(self.u, 3 * self.net(self.e - self.x)))
+        yield ac.When(ac.sample(0.0, 1.0), ac.Eq(self.u, 3 * self.net(self.target - self.x)))
+        some = ac.where(self.x > 0, self.nested(self.e), 0.0)
+        yield ac.When(ac.sample(0.0, 1.0), ac.Eq(self.w, 2 + some - 2))
         yield ac.When(self.x > 1, ac.Reinit(self.x, self.jump(self.x)))
 
 
 def test_a_law_at_events_is_given_in_the_variable_that_it_sets() -> None:
     system = ac.compile(Sampled(), check_units=False)
     packed = system.pack(system.parameters())
-    net, jump = labels(system, "net", packed), labels(system, "jump", packed)
-    assert (net.arguments, net.result, net.factor) == (("e - x",), "u [N]", pytest.approx(3.0))
+    net, jump, nested = (labels(system, name, packed) for name in ("net", "jump", "nested"))
+    assert (net.arguments, net.result, net.factor) == (("target - x",), "u [N]", pytest.approx(3.0))
+    assert (nested.arguments, nested.result) == (("e",), "w")
     assert (jump.arguments, jump.result, jump.factor) == (("x [m]",), "x [m]", pytest.approx(1.0))

@@ -411,6 +411,9 @@ def test_adaptive_steps_end_at_corners_and_jumps_of_inputs_only():
     t, noise = np.linspace(0, 4, 20_001), np.random.default_rng(0).standard_normal(20_001)
     assert len(breaks((ac.Signal(t, np.sin(t)),), 0.0, 4.0)[0]) == 0
     assert len(breaks((ac.Signal(t, np.sin(t) + 0.01 * noise),), 0.0, 4.0)[0]) > 19_000
+    traced: list[int] = []
+    jax.jit(lambda v: traced.append(len(breaks((ac.Signal(t, v),), 0.0, 4.0)[0])))(jnp.sin(t))
+    assert traced == [0]
 
 
 class Lag(ac.Component):

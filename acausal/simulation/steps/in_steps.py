@@ -94,7 +94,8 @@ class InSteps:
                 run.refuse_broken(x, self.saved, solved.method)
             else:
                 has_dt, automatic = self.ends is not None, self.solver is None
-                raise _stopped(run, solved, int(why), posed.problem.max_steps, has_dt, automatic)
+                most = posed.problem.max_steps if has_dt else self.max_steps
+                raise _stopped(run, solved, int(why), most, has_dt, automatic)
         own = c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
         statistics = Statistics(solved.method, *own, c.edges, c.by_wave, c.by_span, c.looks)
         ts = posed.problem.ts

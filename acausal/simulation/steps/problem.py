@@ -19,7 +19,8 @@ SIDE = 16.0
 """Two times are apart if they differ by so many rounding errors."""
 
 EDGE_STEPS = 8
-"""So many more steps for each edge of the right-hand side, all in all so many times ``max_steps``; and of inputs."""
+"""So many more steps are allowed for each edge of the right-hand side, all in all so many times ``max_steps``; and for
+each jump or kink of an input."""
 
 
 class RightHandSide(eqx.Module):

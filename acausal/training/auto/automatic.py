@@ -247,7 +247,8 @@ def _scales(
     problem, records = start.problem, start.problem.records
     found = problem.simulate(start.trainable)
     x = found.x if explains or records.x is None else records.x
-    known = jnp.asarray(np.flatnonzero(np.isfinite(np.asarray(x)).all(axis=1)))
+    passed = x if found.d is None else jnp.concatenate([x, found.d], axis=1)
+    known = jnp.asarray(np.flatnonzero(np.isfinite(np.asarray(passed)).all(axis=1)))
     seen = problem.seen(start.trainable, x, found.d, known)
     return {
         n: _scales_of(np.asarray(seen[n]), start.laws[n], start.sensitive[n], shapes[n])

@@ -294,7 +294,8 @@ class Problem(Simulator):
             x, d: states and discrete variables at every row.
             rows: indices of rows; ``None`` for all.
 
-        The calls of a network with several places in the model follow each other row by row.
+        The calls of a network with several places in the model follow each other row by row. Those at events
+        have what they would have at every row.
         """
         packed = self.pack(self.assemble(trainable), trainable)
         steps, of = self.steps(packed, rows), self.records.of

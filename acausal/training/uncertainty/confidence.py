@@ -99,7 +99,8 @@ class Confidence:
         step_move: by how many standard deviations the error of the integration's steps moves laws and parameters at
             most; the deviations do not count it.
         about: how well each parameter is known, one sentence each.
-        starts: by state whose start is not measured, the laws that can take any part of it; their bands count that.
+        starts: by state whose start the training finds, the laws that can take any part of it; their bands count
+            that, ``prior`` does not.
         prior: the same as the prior of a later training, which `acausal.fit` takes from ``prior=fit``.
     """
 
@@ -170,10 +171,10 @@ class Confidence:
         ]
 
     def unknown_starts(self, of: Collection[str]) -> list[str]:
-        """Which starts of states the data cannot tell from some laws, a sentence each."""
+        """Which starts of states the data hardly determine beside some laws, a sentence each."""
         return [
-            f"The data can hardly tell where '{state}' starts from {listing(laws)}: say where (x0={{'{state}': ...}}), "
-            "or measure it."
+            f"The data hardly determine where '{state}' starts: {listing(laws)} can take any part of that. Say where "
+            f"(x0={{'{state}': ...}}), or measure it from the start."
             for state, laws in self.starts.items()
             if not set(of).isdisjoint(laws)
         ]

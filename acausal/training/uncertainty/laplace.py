@@ -12,7 +12,7 @@ correlated residuals count for less than one each.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import jax
@@ -47,7 +47,7 @@ POINTS_EACH = 4
 """Points for each bump at which a later training compares a law with what is known."""
 
 SHARE = 0.3
-"""Of a law's deviation: what changes with a start by less is not said to."""
+"""The smallest part of a law's deviation that a start must change to be reported."""
 
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
@@ -100,7 +100,7 @@ def confidence(
         [any(v > TAKEN for v in laws.values()) for laws in with_laws.values()], dtype=bool
     )
     known = np.where(taken, np.maximum(sigma, change.of_parameters), sigma)
-    starts = _start_moves(change, effects)
+    starts = _start_moves(change, effects, earlier)
     moves = np.stack([onward[: len(change.heights)], *starts.values()])
     places = split(change.bumped, np.arange(len(onward)))[0]
     bands = {
@@ -237,24 +237,47 @@ def _with_laws(
 
 
 def _start_moves(
-    change: Changes, effects: Float[np.ndarray, "rows n"]
+    change: Changes, effects: Float[np.ndarray, "rows n"], earlier: Sequence[RecordJacobian]
 ) -> dict[str, Float[np.ndarray, " n_bumps"]]:
-    """By state whose start is not measured, how the laws change with it where they can take any part of it.
+    """By state whose start is trained, how the laws change with it where they can take any part of it.
 
-    The change is that of all bumps for one standard deviation of the start.
+    The change is that of all bumps where the starts of all records move together, by one standard deviation.
     """
-    problem, bumps = change.problem, effects[:, : len(change.heights)]
-    if change.trainable.starts is None or not bumps.size:
+    n = len(change.heights)
+    if not n:
         return {}
-    unknown = np.isnan(np.asarray(problem.first_states.given)).any(axis=0)
-    first = change.own.start + len(problem.per_record.names)
-    columns = {problem.system.states[i]: effects[:, first + i] for i in np.flatnonzero(unknown)}
-    known = bumps.T @ bumps + np.eye(bumps.shape[1])
-    return {
-        state: change.heights * np.linalg.solve(known, bumps.T @ column)
-        for state, column in columns.items()
-        if correlation_with(column, bumps) > TAKEN
-    }
+    rows = [part.common[:, :n] for part in earlier]
+    bumps = np.concatenate([effects[:, :n], *rows])
+    known = bumps.T @ bumps + np.eye(n)
+    found = dict[str, Float[np.ndarray, " n_bumps"]]()
+    for state, column in _common_starts(change, effects).items():
+        column = np.concatenate([column, np.zeros(len(bumps) - len(column))])
+        if correlation_with(column, bumps) > TAKEN:
+            found[state] = change.heights * np.linalg.solve(known, bumps.T @ column)
+    return found
+
+
+def _common_starts(
+    change: Changes, effects: Float[np.ndarray, "rows n"]
+) -> dict[str, Float[np.ndarray, " rows"]]:
+    """By state, what one standard deviation of a start changes that all records have in common."""
+    problem, states = change.problem, change.problem.system.states
+    columns = iter(effects[:, change.own].T[len(problem.per_record.names) :])
+    found = dict[str, Float[np.ndarray, " rows"]]()
+    if change.trainable.starts is not None and problem.start_prior is not None:
+        scale = np.asarray(problem.start_prior.scale)
+        with np.errstate(divide="ignore"):
+            each = np.where(scale > 0, 1 / scale, 0.0)  # a start that is known does not move
+        common = 1 / np.maximum(np.sqrt(np.sum(each**2, axis=0)), 1e-300)
+        of = np.repeat(np.asarray(problem.records.of), len(problem.targets))
+        found = {
+            state: column * common[i] * each[of, i]
+            for i, (state, column) in enumerate(zip(states, columns, strict=False))
+        }
+    if change.trainable.states is None:
+        return found
+    moving = {state for state, column in found.items() if column.any()}
+    return found | {s: c for s, c in zip(states, columns, strict=False) if s not in moving}
 
 
 def _taken_by(
