@@ -28,10 +28,11 @@ class _AsWritten(StrPrinter):
         whole = isinstance(expr, sp.Lt | sp.Ge) and isinstance(expr.lhs, sp.Abs)
         if expr.rhs is not sp.S.Half or not whole:
             return super()._print_Relational(expr)
-        terms = sp.Add.make_args(expr.lhs.args[0])
+        difference: Any = expr.lhs.args[0]
+        terms = sp.Add.make_args(difference)
         right = sp.Add(*(-term for term in terms if term.could_extract_minus_sign()))
         sign = "==" if isinstance(expr, sp.Lt) else "!="
-        return f"{self._print(expr.lhs.args[0] + right)} {sign} {self._print(right)}"
+        return f"{self._print(difference + right)} {sign} {self._print(right)}"
 
     def _print_And(self, expr: Any) -> str:
         texts = set(map(self._inner, expr.args))

@@ -106,5 +106,5 @@ def test_a_law_at_events_is_given_in_the_variable_that_it_sets() -> None:
     packed = system.pack(system.parameters())
     net, jump, nested = (labels(system, name, packed) for name in ("net", "jump", "nested"))
     assert (net.arguments, net.result, net.factor) == (("target - x",), "u [N]", pytest.approx(3.0))
-    assert (nested.arguments, nested.result) == (("e",), "w")
+    assert (nested.arguments, nested.result) == (("e [m]",), "w")
     assert (jump.arguments, jump.result, jump.factor) == (("x [m]",), "x [m]", pytest.approx(1.0))
