@@ -99,8 +99,8 @@ class Confidence:
         step_move: by how many standard deviations the error of the integration's steps moves laws and parameters at
             most; the deviations do not count it.
         about: how well each parameter is known, one sentence each.
-        starts: by state whose start the training finds, the laws that can take any part of it; their bands count
-            that, ``prior`` does not.
+        starts: by state whose start is not measured, the laws that can take any part of it; their bands count that,
+            ``prior`` does not.
         prior: the same as the prior of a later training, which `acausal.fit` takes from ``prior=fit``.
     """
 

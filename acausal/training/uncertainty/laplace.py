@@ -101,10 +101,10 @@ def confidence(
     )
     known = np.where(taken, np.maximum(sigma, change.of_parameters), sigma)
     starts = _start_moves(change, effects, earlier)
-    moves = np.stack([onward[: len(change.heights)], *starts.values()])
+    moves = np.stack([np.zeros(len(change.heights)), *starts.values()])
     places = split(change.bumped, np.arange(len(onward)))[0]
     bands = {
-        name: _band(change, name, moves[:, own], covariance[np.ix_(own, own)])
+        name: _band(change, name, onward[own], covariance[np.ix_(own, own)], moves[:, own])
         for name, own in places.items()
     }
     return Confidence(
@@ -239,7 +239,7 @@ def _with_laws(
 def _start_moves(
     change: Changes, effects: Float[np.ndarray, "rows n"], earlier: Sequence[RecordJacobian]
 ) -> dict[str, Float[np.ndarray, " n_bumps"]]:
-    """By state whose start is trained, how the laws change with it where they can take any part of it.
+    """By state whose start is not measured, how the laws change with it where they can take any part of it.
 
     The change is that of all bumps where the starts of all records move together, by one standard deviation.
     """
@@ -260,7 +260,7 @@ def _start_moves(
 def _common_starts(
     change: Changes, effects: Float[np.ndarray, "rows n"]
 ) -> dict[str, Float[np.ndarray, " rows"]]:
-    """By state, what one standard deviation of a start changes that all records have in common."""
+    """By state that is not measured, what one standard deviation of a start changes that all records have in common."""
     problem, states = change.problem, change.problem.system.states
     columns = iter(effects[:, change.own].T[len(problem.per_record.names) :])
     found = dict[str, Float[np.ndarray, " rows"]]()
@@ -273,6 +273,7 @@ def _common_starts(
         found = {
             state: column * common[i] * each[of, i]
             for i, (state, column) in enumerate(zip(states, columns, strict=False))
+            if np.isnan(np.asarray(problem.first_states.given)[:, i]).any()
         }
     if change.trainable.states is None:
         return found
@@ -356,16 +357,18 @@ def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> di
 def _band(
     change: Changes,
     name: str,
-    moves: Float[np.ndarray, "n n_bumps"],
+    onward: Float[np.ndarray, " n_bumps"],
     covariance: Float[np.ndarray, "n_bumps n_bumps"],
+    moves: Float[np.ndarray, "n n_bumps"],
 ) -> Band:
-    """A law with its deviation: what the covariance says, and further changes that are as likely."""
+    """A law with its deviation: what the covariance says, or its ``moves`` with starts where these are more."""
     network, bumped = change.params[name], change.bumped[name]
     x = np.asarray(bumped.points(BAND_POINTS))
     rest = change.seen[name][:, 1:].mean(axis=0)
     shapes = np.asarray(bumps_at(bumped, x))
     variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
-    variance += np.sum((shapes @ moves.T) ** 2, axis=1)
+    variance = np.maximum(variance, np.sum((shapes @ moves.T) ** 2, axis=1))
+    variance += (shapes @ onward) ** 2
     kept = kept_promises(network)
     sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0
     return Band(
