@@ -74,9 +74,7 @@ def _calls(system: System, wanted: list[int], at_events: bool) -> Iterator[Calls
             yield Calls(tuple(map(own, call.args[2:])), called[rows])
 
 
-def _stated(
-    system: System, at_events: bool = True
-) -> Iterator[tuple[EquationGroup, Any, Integers]]:
+def _stated(system: System, at_events: bool) -> Iterator[tuple[EquationGroup, Any, Integers]]:
     """The calls of modules that equations and conditions state, and then those at events.
 
     Each is given by its group, the call, and the module that each row calls.
@@ -129,7 +127,7 @@ def labels(system: System, module: str, packed: Packed) -> Labels:
         ModelError: for a name that is no module of the model.
     """
     wanted = target(system, module)
-    for group, call, called in _stated(system):
+    for group, call, called in _stated(system, at_events=True):
         rows = np.flatnonzero(called == wanted)
         if not rows.size:
             continue
@@ -144,7 +142,10 @@ def labels(system: System, module: str, packed: Packed) -> Labels:
 
 
 def _given(group: EquationGroup, call: Any) -> tuple[Any, Any]:
-    """The variable that is a law times a factor of numbers and parameters, if in one case only; None for more."""
+    """The variable that is a law times a factor of numbers and parameters; None where it is more than that.
+
+    Where only one of several cases has the law, that case counts.
+    """
     template, law = group.template, sp.Dummy()
     residual: Any = template.residual.xreplace({call: law})
     residual = sp.expand(residual.replace(sp.Piecewise, lambda *cases: _only_case(law, *cases)))

@@ -86,7 +86,7 @@ def are_split(
     run: Run,
     ends: Float[np.ndarray, " n_ends"],
     adjoint: object,
-    solver: solvers.Solver | None = None,
+    solver: solvers.Solver | None,
 ) -> bool:
     """Whether edges of sources, or jumps of inputs, lie within fixed steps, and divide them.
 

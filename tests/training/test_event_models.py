@@ -131,9 +131,7 @@ class SampledLoop(ac.Component):
         yield ac.When(ac.sample(0.0, 0.25), ac.Eq(self.u, self.controller(self.r - self.x)))
 
 
-def test_laws_called_at_events_are_trained_and_those_of_discrete_variables_see_their_values() -> (
-    None
-):
+def test_laws_at_events_are_trained_and_laws_of_discrete_variables_see_their_values() -> None:
     system, times = ac.compile(SampledLoop()), np.linspace(0.0, 4.0, 81)
     r = 3 * np.sin(times)
 
