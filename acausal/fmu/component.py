@@ -10,7 +10,14 @@ import numpy as np
 
 from acausal.errors import DeclarationError, known_name, need_flag
 from acausal.fmu.archive import read
-from acausal.fmu.description import REAL, Conversion, Description, FMUVariable, read_description
+from acausal.fmu.description import (
+    CLOCK,
+    REAL,
+    Conversion,
+    Description,
+    FMUVariable,
+    read_description,
+)
 from acausal.fmu.fmu_view import as_html, as_text
 from acausal.fmu.function import FMUFunction, evaluated, has_events
 from acausal.fmu.model_exchange import NEVER
@@ -69,7 +76,8 @@ class FMU(Component):
     Arguments:
         path: of the file.
         values: by the FMU's names, values of parameters; of inputs, which are then parameters, too; and of variables
-            whose start value the FMU takes as it is, which become parameters ``"mass.s.start"``.
+            whose start value the FMU takes as it is, which become parameters ``"mass.s.start"``. For a clock, the
+            interval between its ticks [s].
         observe: names of further variables that the model reads.
         kind: ``"me"``, model exchange, or ``"cs"``, co-simulation. By default the first of these that the FMU has.
         step: the communication step of co-simulation [s]; by default the one that the FMU suggests, or 1/500 of its
@@ -116,7 +124,11 @@ class FMU(Component):
             of,
             communication_step(description, of, step),
             need_flag(open_loop, "FMU: open_loop", DeclarationError),
-            memory_size(of, memory, open_loop=open_loop) if chosen.inputs else 0,
+            memory_size(
+                of, memory, open_loop=open_loop, clocked=any(v.is_clocked for v in chosen.results)
+            )
+            if chosen.inputs
+            else 0,
         )
         values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")
         super().__init__(computed=FMUFunction(part, values_of), event=FMUFunction(part, event))
@@ -162,7 +174,7 @@ class FMU(Component):
             self.modify(**{self._names[name]: chosen.values.get(v.name, starts(v))})
         for v in chosen.inputs:
             if v.name not in chosen.values:
-                given = None if v.start is None else starts(v)
+                given = None if v.start is None and v.type != CLOCK else starts(v)
                 self._add_declaration(v.name, _declared(Input, v, kind=_kind(v), default=given))
         if self._part.kind == "cs":
             self._declare_held(chosen.results)
@@ -238,6 +250,10 @@ class FMU(Component):
         known = self.description.variables
         return [v.conversion for v in (known[n] for n in names) for _ in range(v.size)]
 
+    def _clocked(self, names: Iterable[str]) -> list[bool]:
+        known = self.description.variables
+        return [v.is_clocked for v in (known[n] for n in names) for _ in range(v.size)]
+
     def _given(self, names: Sequence[str]) -> list[Any]:
         """The values that the FMU gets for some variables, in its own units."""
         each = zip(self._units(names), self._elements(names), strict=True)
@@ -281,12 +297,17 @@ class FMU(Component):
         before = [pre(u) for u in (*taken, *earlier)]
         given = [*self._arguments(pre(self[HISTORY]), [0.0] * len(inputs)), *before]
         reached, names = self[REACHED], self._part.results
-        results = zip(self._elements(names), self._units(names), strict=True)
+        results = zip(self._elements(names), self._units(names), self._clocked(names), strict=True)
+        behind = self._arguments(reached, inputs)  # clocks tick with the inputs there
+        found = [
+            Eq(y, u.to_model(self.event(i, *behind) if clocked else self.computed(i, *given)))
+            for i, (y, u, clocked) in enumerate(results, 1)
+        ]
         return When(
             initial() | sample(0, self._part.step),
             Eq(reached, self.computed(0, *given)),
-            *[Eq(y, u.to_model(self.computed(1 + i, *given))) for i, (y, u) in enumerate(results)],
-            Eq(self[HISTORY], self.event(0, *self._arguments(reached, inputs))),
+            *found,
+            Eq(self[HISTORY], self.event(0, *behind)),
             *[Eq(u, new) for u, new in zip(taken, inputs, strict=False)],
         )
 

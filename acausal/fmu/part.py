@@ -63,6 +63,18 @@ class Part:
         return self.n + len(self.elements(self.results)) + indicators
 
     @cached_property
+    def is_clocked(self) -> bool:
+        """Whether it has results that come from ticks of clocks."""
+        return any(self.description.variables[n].is_clocked for n in self.results)
+
+    @cached_property
+    def sampled(self) -> list[int]:
+        """The places of inputs that only clocks or communication points take."""
+        known, first = self.description.variables, 2 + self.n
+        each = [v.is_clocked for v in (known[n] for n in self.inputs) for _ in range(v.size)]
+        return [first + i for i, clocked in enumerate(each) if clocked or self.kind == "cs"]
+
+    @cached_property
     def key(self) -> str:
         """It stands for all that the part is."""
         of = {**self.__getstate__(), "path": "", "description": ""}
