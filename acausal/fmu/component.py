@@ -125,7 +125,10 @@ class FMU(Component):
             communication_step(description, of, step),
             need_flag(open_loop, "FMU: open_loop", DeclarationError),
             memory_size(
-                of, memory, open_loop=open_loop, clocked=any(v.is_clocked for v in chosen.results)
+                of,
+                memory,
+                open_loop=open_loop,
+                clocked=any(map(description.is_of_ticks, chosen.results)),
             )
             if chosen.inputs
             else 0,
@@ -224,7 +227,9 @@ class FMU(Component):
             if self._part.step:
                 doc = "how many steps the FMU was told to be completed"
                 self._add_declaration(COMPLETED, Discrete(0, kind="int", doc=doc))
-            self._add_declaration(NEXT, Discrete(NEVER, unit="s", doc="the FMU's next time event"))
+            many = (self._part.n_next,)
+            doc = "the FMU's next time event, and ticks of its clocks"
+            self._add_declaration(NEXT, Discrete((NEVER,) * many[0], unit="s", shape=many, doc=doc))
             n = self.description.indicators
             self._add_declaration(
                 INDICATORS, Variable(shape=(n,), doc="the FMU's event indicators")
@@ -249,10 +254,6 @@ class FMU(Component):
     def _units(self, names: Iterable[str]) -> list[Conversion]:
         known = self.description.variables
         return [v.conversion for v in (known[n] for n in names) for _ in range(v.size)]
-
-    def _clocked(self, names: Iterable[str]) -> list[bool]:
-        known = self.description.variables
-        return [v.is_clocked for v in (known[n] for n in names) for _ in range(v.size)]
 
     def _given(self, names: Sequence[str]) -> list[Any]:
         """The values that the FMU gets for some variables, in its own units."""
@@ -292,19 +293,20 @@ class FMU(Component):
 
     def _communication(self, inputs: list[Any]) -> When:
         """The step to a communication point, and the inputs that hold from there on."""
-        taken = self._elements([TAKEN] if self._part.memory else [])
-        earlier = [part.y for part in self.earlier] if self._part.memory else []
+        part = self._part
+        taken = self._elements([TAKEN] if part.memory else [])
+        earlier = [held.y for held in self.earlier] if part.memory else []
         before = [pre(u) for u in (*taken, *earlier)]
         given = [*self._arguments(pre(self[HISTORY]), [0.0] * len(inputs)), *before]
-        reached, names = self[REACHED], self._part.results
-        results = zip(self._elements(names), self._units(names), self._clocked(names), strict=True)
+        reached, names = self[REACHED], part.results
+        results = zip(self._elements(names), self._units(names), part.behind, strict=True)
         behind = self._arguments(reached, inputs)  # clocks tick with the inputs there
         found = [
-            Eq(y, u.to_model(self.event(i, *behind) if clocked else self.computed(i, *given)))
-            for i, (y, u, clocked) in enumerate(results, 1)
+            Eq(y, u.to_model(self.event(i, *behind) if is_behind else self.computed(i, *given)))
+            for i, (y, u, is_behind) in enumerate(results, 1)
         ]
         return When(
-            initial() | sample(0, self._part.step),
+            initial() | sample(0, part.step),
             Eq(reached, self.computed(0, *given)),
             *found,
             Eq(self[HISTORY], self.event(0, *behind)),
@@ -325,16 +327,19 @@ class FMU(Component):
         for i, indicator in enumerate(indicators):  # an event is in the mode before it
             yield Eq(indicator, self.computed(place + i, *before))
         signs = [where(z > 0, 1, 0, events=True) for z in indicators]
-        due = where(time >= pre(self[NEXT]), 1, 0, events=True)
-        given = [*before, *signs, due]
+        known = [pre(time_of) for time_of in self[NEXT]]
+        due = sum(where(time >= time_of, 1, 0, events=True) for time_of in known)
+        given = [*before, *signs, due, *known]
         yield Eq(self[HISTORY], self.event(0, *given))
-        yield Eq(self[NEXT], self.event(1, *given))
+        for i, time_of in enumerate(self[NEXT], 1):
+            yield Eq(time_of, self.event(i, *given))
         if self._part.step:  # at an event, a step of the integration ends
             count = self[COMPLETED]
             yield When(sample(0, self._part.step), Eq(count, pre(count) + 1))
         if states:
             each = enumerate(zip(states, self._units(self.description.states), strict=True))
-            jumps = [Reinit(x, u.to_model(self.event(2 + i, *given))) for i, (x, u) in each]
+            first = 1 + self._part.n_next
+            jumps = [Reinit(x, u.to_model(self.event(first + i, *given))) for i, (x, u) in each]
             yield When(abs(self[HISTORY] - pre(self[HISTORY])) > HALF, *jumps)
 
     def _starts(self, first: int, variable: FMUVariable) -> Any:

@@ -62,7 +62,7 @@ class Slave(EventMode):
         self.initialize(time, held.ctypes.data, place, again=False)
         self.time, self.started, self.given = time, True, inputs
         if self.library.description.event_mode:
-            self.due = self.iterate(time, place, ticks=bool(inputs)).next
+            self.next = self.iterate(time, place, ticks=bool(inputs)).next
 
     def take(self, inputs: bytes) -> None:
         """Set the inputs that hold from now on: at an event, where the FMU has some."""
@@ -77,7 +77,7 @@ class Slave(EventMode):
             self.call("EnterEventMode")
         self._write(writes, place, "an input")
         if has_events:
-            self.due = self.iterate(self.time, place, ticks=ticks).next
+            self.next = self.iterate(self.time, place, ticks=ticks).next
 
     def advance(self, end: float) -> None:
         """Go to the next communication point. Clocks that tick there do so with the inputs that are taken there.
@@ -163,7 +163,7 @@ class Stepped(Computed):
         first = 2 + part.n_inputs
         width = first + part.n_parameters
         scales = np.append(self._scales, np.tile(self._scales[2:first], part.memory))
-        behind = range(first, width) if part.is_clocked else ()
+        behind = range(first, width) if any(part.behind) else ()
         self._offer(
             step=Differentiated(
                 self._step, len(scales), 1 + part.n_values, range(first, len(scales)), scales, self._lock,
@@ -193,13 +193,13 @@ class Stepped(Computed):
                 instance.free()
                 instance.make()
                 instance.start(event.time, instance.values, event.inputs)
-            return AfterEvent(0, instance.due, b"", 0)
+            return AfterEvent(0, instance.next, b"", 0)
         if instance.started:
             instance.advance(event.time)
         else:
             instance.start(event.time, instance.values, b"")
         outputs = self._outputs(instance, event.time)
-        return AfterEvent(0, instance.due, outputs.tobytes(), 0)
+        return AfterEvent(0, instance.next, outputs.tobytes(), 0)
 
     def _outputs(self, instance: Slave, time: float) -> Any:
         found = np.zeros(self._results.size)
@@ -309,7 +309,7 @@ class Stepped(Computed):
             event = PastEvent(before, time, b"", self._values_of_inputs(at), b"", timed=False)
             after = self._histories.after(self._values_of_parameters(at), event)
             C.c_double.from_address(into).value = after.history
-            if self.part.is_clocked:
+            if any(self.part.behind):
                 instance = self._histories.instance(self._values_of_parameters(at), after.history)
                 assert isinstance(instance, Slave)
                 outputs = self._outputs(instance, time).tobytes()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -230,10 +230,21 @@ class Description:
         """Its clocks."""
         return [v for v in self.variables.values() if v.type == CLOCK]
 
+    def is_of_ticks(self, v: FMUVariable) -> bool:
+        """Whether the ticks of clocks may change a variable."""
+        ticks = any(c.causality == "input" for c in self.clocks)
+        return v.is_clocked or (ticks and v.variability == "discrete")
+
     @cached_property
     def parameters(self) -> list[FMUVariable]:
         """The real parameters, which a model may change and train."""
         return [v for v in self.of("parameter", REAL[:2]) if v.variability in ("fixed", "tunable")]
+
+
+def timed_clocks(description: Description, intervals: Container[str]) -> list[FMUVariable]:
+    """Clocks that tick at times that are known: by themselves, or with an interval that a user gives."""
+    asked = [v for v in description.clocks if v.causality == "input"]
+    return [v for v in asked if v.clock.kind != TRIGGERED or v.name in intervals]
 
 
 def read_description(folder: Folder, file: object, values: Mapping[str, Any]) -> Description:

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from acausal.fmu.description import COUNTDOWN, TRIGGERED, FMUVariable
+from acausal.fmu.description import COUNTDOWN, TRIGGERED, FMUVariable, timed_clocks
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, FMUError
 
@@ -26,9 +26,9 @@ UNKNOWN, UNCHANGED, CHANGED = range(3)
 
 
 class Info(NamedTuple):
-    """What an FMU says of an event: the next time event (infinite: none), and whether its states have jumped."""
+    """What an FMU says of an event: when time events and clocks come next, and whether its states have jumped."""
 
-    next: float
+    next: tuple[float, ...]
     jumped: bool
 
 
@@ -52,9 +52,7 @@ class EventMode(Instance):
         super().__init__(*given)
         clocks, places = self.library.description.clocks, self.inputs.clocks
         self._intervals = {v.name: float(x) for v, x in self.settings if v in clocks}
-        self._timed = [
-            v for v in clocks if v.causality == "input" and (v.clock.kind != TRIGGERED or v.name in self._intervals)
-        ]  # fmt: skip
+        self._timed = timed_clocks(self.library.description, self._intervals)
         self._asked = [(v, BYTES * places[v.name]) for v in clocks if v.name in places]
         self._watched = [v for v in clocks if v.causality != "input"]
         self._periods: dict[str, tuple[float, float]] = {}
@@ -158,7 +156,7 @@ class EventMode(Instance):
                 f"FMU: '{self.library.description.model}' finds no discrete states that agree: they change for ever."
             )
         self.call(self.between)
-        return Info(min([after if defined else np.inf, *self.ticks.values()]), jumped)
+        return Info((after if defined else np.inf, *self.ticks.values()), jumped)
 
     def _tick(self, time: float, inputs: int) -> set[str]:
         """Tick the clocks that are due, or asked to by inputs; their names."""

@@ -46,7 +46,14 @@ class FMUFunction(eqx.Module):
             held = jax.lax.stop_gradient if known else partial(_held, part)
             for place in part.sampled:
                 given[place] = held(given[place])
+        old: list[Any] = []
+        if self.kind == "event":
+            given, old = given[: -part.n_next], given[-part.n_next :]
         found = _found(number, rows, *given)
+        if old:  # an instant that stays has the derivative that it had
+            times = slice(1, 1 + part.n_next)
+            kept = jnp.where(found[times] == jnp.stack(old), jnp.stack(old), found[times])
+            found = found.at[times].set(kept)
         return jnp.take(found, jnp.asarray(which).astype(int))
 
     def why_nonfinite(self) -> str | None:
@@ -63,7 +70,7 @@ def _held(part: Part, u: Float[Array, ""]) -> Float[Array, ""]:
 def _refuse(part: Part, at: tuple[Array], along: tuple[Any]) -> tuple[Array, Array]:
     """How an FMU depends on inputs that it took earlier is inside of it."""
     if not isinstance(along[0], SymbolicZero):
-        clocked = part.kind == "me" or part.is_clocked
+        clocked = part.kind == "me" or any(part.behind)
         whose, remedy = "which its clocks take", ""
         if not clocked:
             whose = "whose co-simulation depends on all earlier ones"

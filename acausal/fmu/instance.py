@@ -37,16 +37,22 @@ class Instance:
         inputs, results: what is set, and read, at each evaluation.
 
     Attributes:
-        due, signs: its next time event, and which indicators were positive behind the last event; whoever leads it
-            through events keeps them.
+        next, signs: when its time events and its clocks come next, and which indicators were positive behind the last
+            event; whoever leads it through events keeps them.
         last: the time at which it has asked to end the simulation. Its values can still be read there.
     """
 
-    due = last = float("inf")
+    next = (float("inf"),)
+    last = float("inf")
     signs = b""
 
-    own: ClassVar[tuple[str, ...]] = ("due", "signs", "last")
+    own: ClassVar[tuple[str, ...]] = ("next", "signs", "last")
     """Attributes that belong to its state."""
+
+    @property
+    def due(self) -> float:
+        """The next of its events whose time is known."""
+        return min(self.next)
 
     def __init__(
         self,

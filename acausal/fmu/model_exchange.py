@@ -131,7 +131,7 @@ class Evaluated(Computed):
             evaluate=Differentiated(
                 self._evaluate, width, part.n_values, **common, fast=self._fast_columns, central=indicators > 0
             ),
-            event=Differentiated(self._event, width + indicators + 1, 2 + n, **common),
+            event=Differentiated(self._event, width + indicators + 1, 1 + part.n_next + n, **common),
             begin=Differentiated(self._begin, width, 1 + n, **common),
         )  # fmt: skip
         self.first_event, self.first_states = NEVER, [0.0] * n
@@ -160,7 +160,7 @@ class Evaluated(Computed):
         except BaseException:
             instance.free()
             raise
-        instance.due = min(first.next, NEVER)
+        instance.next = _limited(first)
         self._firsts[parameters] = instance.due, states.tobytes()
         if len(self._firsts) > REMEMBERED:
             self._firsts.popitem(last=False)
@@ -194,7 +194,7 @@ class Evaluated(Computed):
         if len(wanted):
             instance.read(values.ctypes.data)
             signs = (values[-len(wanted) :] > 0).astype(float).tobytes()
-        return AfterEvent(0, min(found.next, NEVER), states.tobytes(), shifts, signs)
+        return AfterEvent(0, _limited(found), states.tobytes(), shifts, signs)
 
     # -- functions ---------------------------------------------------------------------------------
 
@@ -222,7 +222,7 @@ class Evaluated(Computed):
         return 0
 
     def _event(self, at: int, into: int) -> int:
-        """The number of the history behind an event, the next time event, and the states."""
+        """The number of the history behind an event, the next events whose time is known, and the states."""
         number = C.c_double.from_address
         n, signs = self.part.n, self.description.indicators * BYTES
         with self._lock:
@@ -235,8 +235,8 @@ class Evaluated(Computed):
                 number(at + self._behind + signs).value > 0.5,
             )
             after = self._histories.after(self._values_of_parameters(at), event)
-            number(into).value, number(into + BYTES).value = after.history, after.next
-            C.memmove(into + 2 * BYTES, after.numbers, n * BYTES)
+            behind = np.array([after.history, *after.next]).tobytes() + after.numbers
+            C.memmove(into, behind, len(behind))
             return after.shifts
 
     def _fast_columns(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:
@@ -266,3 +266,7 @@ class Evaluated(Computed):
                     done[column] = size
                 column += 1
         return done
+
+
+def _limited(found: Info) -> tuple[float, ...]:
+    return tuple(min(time, NEVER) for time in found.next)
