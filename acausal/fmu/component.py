@@ -227,9 +227,9 @@ class FMU(Component):
             if self._part.step:
                 doc = "how many steps the FMU was told to be completed"
                 self._add_declaration(COMPLETED, Discrete(0, kind="int", doc=doc))
-            many = (self._part.n_next,)
-            doc = "the FMU's next time event, and ticks of its clocks"
-            self._add_declaration(NEXT, Discrete((NEVER,) * many[0], unit="s", shape=many, doc=doc))
+            n, doc = self._part.n_next, "the FMU's next time event"
+            many, doc = ((n,), f"{doc}, and ticks of its clocks") if n > 1 else (None, doc)
+            self._add_declaration(NEXT, Discrete(NEVER, unit="s", shape=many, doc=doc))
             n = self.description.indicators
             self._add_declaration(
                 INDICATORS, Variable(shape=(n,), doc="the FMU's event indicators")
@@ -327,12 +327,13 @@ class FMU(Component):
         for i, indicator in enumerate(indicators):  # an event is in the mode before it
             yield Eq(indicator, self.computed(place + i, *before))
         signs = [where(z > 0, 1, 0, events=True) for z in indicators]
-        known = [pre(time_of) for time_of in self[NEXT]]
-        due = sum(where(time >= time_of, 1, 0, events=True) for time_of in known)
+        instants = self._elements([NEXT])
+        known = [pre(instant) for instant in instants]
+        due = sum(where(time >= instant, 1, 0, events=True) for instant in known)
         given = [*before, *signs, due, *known]
         yield Eq(self[HISTORY], self.event(0, *given))
-        for i, time_of in enumerate(self[NEXT], 1):
-            yield Eq(time_of, self.event(i, *given))
+        for i, instant in enumerate(instants, 1):
+            yield Eq(instant, self.event(i, *given))
         if self._part.step:  # at an event, a step of the integration ends
             count = self[COMPLETED]
             yield When(sample(0, self._part.step), Eq(count, pre(count) + 1))

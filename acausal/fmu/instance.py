@@ -42,7 +42,7 @@ class Instance:
         last: the time at which it has asked to end the simulation. Its values can still be read there.
     """
 
-    next = (float("inf"),)
+    next: tuple[float, ...] = (float("inf"),)
     last = float("inf")
     signs = b""
 

@@ -370,6 +370,21 @@ def test_values_from_outside_of_the_model_are_refused():
         ac.compile(outer.inner)
 
 
+def test_an_array_may_be_declared_with_a_start_for_each_element():
+    class Counts(ac.Component):
+        n = ac.Discrete((5.0, 6.0), shape=2)
+        x = ac.Variable(start=((1.0, 2.0),), shape=(1, 2))
+
+        def equations(self):
+            yield ac.When(ac.time > 0.7, *[ac.Eq(n, ac.pre(n) + 1) for n in self.n])
+            for x in self.x[0]:
+                yield ac.Eq(ac.der(x), 0)
+
+    run = ac.simulate(ac.compile(Counts()), 1.0, dt=0.5)
+    assert [run["n[1]"][0], run["n[2]"][0], run["n[2]"][-1]] == [5, 6, 7]
+    assert [run["x[1,1]"][0], run["x[1,2]"][0]] == [1, 2]
+
+
 def test_wrong_sizes():
     class Table(ac.Component):
         k = ac.Parameter(shape=3)
