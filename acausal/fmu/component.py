@@ -80,9 +80,11 @@ class FMU(Component):
             interval between its ticks [s].
         observe: names of further variables that the model reads.
         kind: ``"me"``, model exchange, or ``"cs"``, co-simulation. By default the first of these that the FMU has.
-        step: the communication step of co-simulation [s]; by default the one that the FMU suggests, or 1/500 of its
-            experiment. In model exchange, the time after which the FMU is told that a step is completed.
-        open_loop: nothing that is trained acts on the inputs of a co-simulation: gradients take them as they are.
+        step: the communication step of co-simulation [s]; by default the one that the FMU suggests, the interval of
+            its fastest clock, or 1/500 of its experiment. In model exchange, the time after which the FMU is told that
+            a step is completed.
+        open_loop: nothing that is trained acts on the inputs of a co-simulation or of clocks: gradients take them as
+            they are.
         memory: so many communication steps of a simulation gradients may go through inputs of a co-simulation. Each
             instant then costs the FMU a step for each input and each instant before.
 
@@ -113,6 +115,7 @@ class FMU(Component):
         description = read_description(folder, path, given)
         of = interface(description, kind)
         chosen = Chosen(description, of, given, seen)
+        clocked = any(map(description.is_of_ticks, chosen.results))
         part = Part(
             str(Path(path).resolve()),
             digest,
@@ -124,14 +127,7 @@ class FMU(Component):
             of,
             communication_step(description, of, step),
             need_flag(open_loop, "FMU: open_loop", DeclarationError),
-            memory_size(
-                of,
-                memory,
-                open_loop=open_loop,
-                clocked=any(map(description.is_of_ticks, chosen.results)),
-            )
-            if chosen.inputs
-            else 0,
+            memory_size(of, memory, open_loop=open_loop, clocked=clocked) if chosen.inputs else 0,
         )
         values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")
         super().__init__(computed=FMUFunction(part, values_of), event=FMUFunction(part, event))

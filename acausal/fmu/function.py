@@ -46,14 +46,11 @@ class FMUFunction(eqx.Module):
             held = jax.lax.stop_gradient if known else partial(_held, part)
             for place in part.sampled:
                 given[place] = held(given[place])
-        old: list[Any] = []
-        if self.kind == "event":
-            given, old = given[: -part.n_next], given[-part.n_next :]
-        found = _found(number, rows, *given)
+        old = given[-part.n_next :] if self.kind == "event" else []
+        found = _found(number, rows, *given[: len(given) - len(old)])
         if old:  # an instant that stays has the derivative that it had
-            times = slice(1, 1 + part.n_next)
-            kept = jnp.where(found[times] == jnp.stack(old), jnp.stack(old), found[times])
-            found = found.at[times].set(kept)
+            times, kept = slice(1, 1 + len(old)), jnp.stack(old)
+            found = found.at[times].set(jnp.where(found[times] == kept, kept, found[times]))
         return jnp.take(found, jnp.asarray(which).astype(int))
 
     def why_nonfinite(self) -> str | None:
