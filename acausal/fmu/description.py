@@ -96,7 +96,7 @@ CLOCK, COUNTDOWN, TRIGGERED = "Clock", "countdown", "triggered"
 
 
 @dataclass(frozen=True)
-class Clock:
+class FMUClock:
     """How a clock of FMI 3.0 ticks.
 
     Attributes:
@@ -146,7 +146,7 @@ class FMUVariable:
     nominal: float
     text: str
     clocks: tuple[str, ...] = ()
-    clock: Clock = Clock()
+    clock: FMUClock = FMUClock()
 
     @property
     def is_clocked(self) -> bool:
@@ -295,7 +295,7 @@ def _described(read: Any, root: Element) -> Description:
     units = definitions(read.unitDefinitions)
     clocks = {e.get("name"): _clock(e) for e in root.iter(CLOCK)}
     variables = {
-        v.name: _variable(v, units, clocks.get(v.name, Clock())) for v in read.modelVariables
+        v.name: _variable(v, units, clocks.get(v.name, FMUClock())) for v in read.modelVariables
     }
     if len(variables) != len(read.modelVariables):
         raise ValueError("two variables have one name")
@@ -358,7 +358,7 @@ def _is_true(element: Element, name: str) -> bool:
     return element.get(name) in ("true", "1")
 
 
-def _clock(element: Element) -> Clock:
+def _clock(element: Element) -> FMUClock:
     """A clock, of which fmpy reads no numbers."""
     get = element.get
     interval, shift = (
@@ -366,10 +366,10 @@ def _clock(element: Element) -> Clock:
         int(counter) / int(get("resolution") or 1) if (counter := get(f"{n}Counter")) else None
         for n in ("interval", "shift")
     )  # fmt: skip
-    return Clock(get("intervalVariability") or TRIGGERED, interval, shift or 0.0)
+    return FMUClock(get("intervalVariability") or TRIGGERED, interval, shift or 0.0)
 
 
-def _step(experiment: Any, cosimulation: Any, clocks: Iterable[Clock]) -> float:
+def _step(experiment: Any, cosimulation: Any, clocks: Iterable[FMUClock]) -> float:
     """The communication step: as the FMU suggests, else its own, its clock's, a part of its experiment, or of 1 s."""
     begin, end, step = (
         float(getattr(experiment, name, None) or 0.0)
