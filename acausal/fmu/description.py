@@ -381,7 +381,7 @@ def _step(experiment: Any, cosimulation: Any, clocks: Iterable[FMUClock]) -> flo
     return found if 0 < found < math.inf else 1 / STEPS
 
 
-def _variable(read: Any, units: Mapping[str, InSI], clock: Clock) -> FMUVariable:
+def _variable(read: Any, units: Mapping[str, InSI], clock: FMUClock) -> FMUVariable:
     declared = read.declaredType
     unit = read.unit or (declared.unit if declared is not None else None) or ""
     is_difference = read.relativeQuantity
