@@ -202,5 +202,7 @@ def element(value: Any, path: str, name: str) -> Any:
         for i in path[len(name) + 1 : -1].split(","):
             found = found[int(i) - 1]
     except (IndexError, TypeError):
-        raise DeclarationError(f"the start of '{name}' has no element for {path}") from None
+        found = None
+    if isinstance(found, str | list | tuple | np.ndarray | None):
+        raise DeclarationError(f"the start of '{name}' has no number for {path}")
     return found
