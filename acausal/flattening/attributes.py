@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar
 
 import numpy as np
 import sympy as sp
@@ -49,21 +49,26 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
     declared = _declared_attributes(layout)
     bindings: list[Binding] = []
     named = [
-        [(i, path, d) for i, (path, d) in enumerate(f.variables) if isinstance(d.start, str)]
+        [
+            (i, path, d)
+            for i, (path, d) in enumerate(f.variables)
+            if isinstance(d.start, str | tuple)
+        ]
         for f in layout.forms
     ]
     start_of_form: dict[tuple[int, int], tuple[int, Binding]] = {}
     for number, component in enumerate(layout.components):
         form_number = int(layout.form_of[number])
-        for index, path, d in named[form_number]:  # the start is a parameter, or a number
+        for index, path, d in named[form_number]:  # the start is a parameter, or an array
             modifiers = component._node.modifiers
             if modifiers.get(d.name, Start()).value is not None:
                 continue
             variable = int(layout.variable_base[number]) + index
-            declared.start_given[variable] = d.start in modifiers
+            declared.start_given[variable] = isinstance(d.start, str) and d.start in modifiers
             key = form_number, index
             if key not in start_of_form:
-                value = element(getattr(component, cast(str, d.start)), path, d.name)
+                start = getattr(component, d.start) if isinstance(d.start, str) else d.start
+                value = element(start, path, d.name)
                 if not is_bound(value):
                     declared.start[variable] = float(value)
                     continue
@@ -197,5 +202,7 @@ def element(value: Any, path: str, name: str) -> Any:
         for i in path[len(name) + 1 : -1].split(","):
             found = found[int(i) - 1]
     except (IndexError, TypeError):
-        raise DeclarationError(f"the start of '{name}' has no element for {path}") from None
+        found = None
+    if isinstance(found, str | list | tuple | np.ndarray | None):
+        raise DeclarationError(f"the start of '{name}' has no number for {path}")
     return found

@@ -10,7 +10,14 @@ import numpy as np
 
 from acausal.errors import DeclarationError, known_name, need_flag
 from acausal.fmu.archive import read
-from acausal.fmu.description import REAL, Conversion, Description, FMUVariable, read_description
+from acausal.fmu.description import (
+    CLOCK,
+    REAL,
+    Conversion,
+    Description,
+    FMUVariable,
+    read_description,
+)
 from acausal.fmu.fmu_view import as_html, as_text
 from acausal.fmu.function import FMUFunction, evaluated, has_events
 from acausal.fmu.model_exchange import NEVER
@@ -69,12 +76,15 @@ class FMU(Component):
     Arguments:
         path: of the file.
         values: by the FMU's names, values of parameters; of inputs, which are then parameters, too; and of variables
-            whose start value the FMU takes as it is, which become parameters ``"mass.s.start"``.
+            whose start value the FMU takes as it is, which become parameters ``"mass.s.start"``. For a clock, the
+            interval between its ticks [s].
         observe: names of further variables that the model reads.
         kind: ``"me"``, model exchange, or ``"cs"``, co-simulation. By default the first of these that the FMU has.
-        step: the communication step of co-simulation [s]; by default the one that the FMU suggests, or 1/500 of its
-            experiment. In model exchange, the time after which the FMU is told that a step is completed.
-        open_loop: nothing that is trained acts on the inputs of a co-simulation: gradients take them as they are.
+        step: the communication step of co-simulation [s]; by default the one that the FMU suggests, the interval of
+            its fastest clock, or 1/500 of its experiment. In model exchange, the time after which the FMU is told that
+            a step is completed.
+        open_loop: nothing that is trained acts on the inputs of a co-simulation or of clocks: gradients take them as
+            they are.
         memory: so many communication steps of a simulation gradients may go through inputs of a co-simulation. Each
             instant then costs the FMU a step for each input and each instant before.
 
@@ -105,6 +115,7 @@ class FMU(Component):
         description = read_description(folder, path, given)
         of = interface(description, kind)
         chosen = Chosen(description, of, given, seen)
+        clocked = any(map(description.is_of_ticks, chosen.results))
         part = Part(
             str(Path(path).resolve()),
             digest,
@@ -116,7 +127,7 @@ class FMU(Component):
             of,
             communication_step(description, of, step),
             need_flag(open_loop, "FMU: open_loop", DeclarationError),
-            memory_size(of, memory, open_loop=open_loop) if chosen.inputs else 0,
+            memory_size(of, memory, open_loop=open_loop, clocked=clocked) if chosen.inputs else 0,
         )
         values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")
         super().__init__(computed=FMUFunction(part, values_of), event=FMUFunction(part, event))
@@ -162,7 +173,7 @@ class FMU(Component):
             self.modify(**{self._names[name]: chosen.values.get(v.name, starts(v))})
         for v in chosen.inputs:
             if v.name not in chosen.values:
-                given = None if v.start is None else starts(v)
+                given = None if v.start is None and v.type != CLOCK else starts(v)
                 self._add_declaration(v.name, _declared(Input, v, kind=_kind(v), default=given))
         if self._part.kind == "cs":
             self._declare_held(chosen.results)
@@ -212,7 +223,9 @@ class FMU(Component):
             if self._part.step:
                 doc = "how many steps the FMU was told to be completed"
                 self._add_declaration(COMPLETED, Discrete(0, kind="int", doc=doc))
-            self._add_declaration(NEXT, Discrete(NEVER, unit="s", doc="the FMU's next time event"))
+            n, doc = self._part.n_next, "the FMU's next time event"
+            many, doc = ((n,), f"{doc}, and ticks of its clocks") if n > 1 else (None, doc)
+            self._add_declaration(NEXT, Discrete(NEVER, unit="s", shape=many, doc=doc))
             n = self.description.indicators
             self._add_declaration(
                 INDICATORS, Variable(shape=(n,), doc="the FMU's event indicators")
@@ -276,17 +289,23 @@ class FMU(Component):
 
     def _communication(self, inputs: list[Any]) -> When:
         """The step to a communication point, and the inputs that hold from there on."""
-        taken = self._elements([TAKEN] if self._part.memory else [])
-        earlier = [part.y for part in self.earlier] if self._part.memory else []
+        part = self._part
+        taken = self._elements([TAKEN] if part.memory else [])
+        earlier = [held.y for held in self.earlier] if part.memory else []
         before = [pre(u) for u in (*taken, *earlier)]
         given = [*self._arguments(pre(self[HISTORY]), [0.0] * len(inputs)), *before]
-        reached, names = self[REACHED], self._part.results
-        results = zip(self._elements(names), self._units(names), strict=True)
+        reached, names = self[REACHED], part.results
+        results = zip(self._elements(names), self._units(names), part.behind, strict=True)
+        behind = self._arguments(reached, inputs)  # clocks tick with the inputs there
+        found = [
+            Eq(y, u.to_model(self.event(i, *behind) if is_behind else self.computed(i, *given)))
+            for i, (y, u, is_behind) in enumerate(results, 1)
+        ]
         return When(
-            initial() | sample(0, self._part.step),
+            initial() | sample(0, part.step),
             Eq(reached, self.computed(0, *given)),
-            *[Eq(y, u.to_model(self.computed(1 + i, *given))) for i, (y, u) in enumerate(results)],
-            Eq(self[HISTORY], self.event(0, *self._arguments(reached, inputs))),
+            *found,
+            Eq(self[HISTORY], self.event(0, *behind)),
             *[Eq(u, new) for u, new in zip(taken, inputs, strict=False)],
         )
 
@@ -304,16 +323,20 @@ class FMU(Component):
         for i, indicator in enumerate(indicators):  # an event is in the mode before it
             yield Eq(indicator, self.computed(place + i, *before))
         signs = [where(z > 0, 1, 0, events=True) for z in indicators]
-        due = where(time >= pre(self[NEXT]), 1, 0, events=True)
-        given = [*before, *signs, due]
+        instants = self._elements([NEXT])
+        known = [pre(instant) for instant in instants]
+        due = sum(where(time >= instant, 1, 0, events=True) for instant in known)
+        given = [*before, *signs, due, *known]
         yield Eq(self[HISTORY], self.event(0, *given))
-        yield Eq(self[NEXT], self.event(1, *given))
+        for i, instant in enumerate(instants, 1):
+            yield Eq(instant, self.event(i, *given))
         if self._part.step:  # at an event, a step of the integration ends
             count = self[COMPLETED]
             yield When(sample(0, self._part.step), Eq(count, pre(count) + 1))
         if states:
             each = enumerate(zip(states, self._units(self.description.states), strict=True))
-            jumps = [Reinit(x, u.to_model(self.event(2 + i, *given))) for i, (x, u) in each]
+            first = 1 + self._part.n_next
+            jumps = [Reinit(x, u.to_model(self.event(first + i, *given))) for i, (x, u) in each]
             yield When(abs(self[HISTORY] - pre(self[HISTORY])) > HALF, *jumps)
 
     def _starts(self, first: int, variable: FMUVariable) -> Any:

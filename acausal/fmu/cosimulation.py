@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import ctypes as C
 from collections import OrderedDict
-from collections.abc import Generator
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from acausal._jax import HostError
 from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import STEP, Differentiated, Numbers
 from acausal.fmu.description import REAL
+from acausal.fmu.event_mode import TOGETHER, EventMode
 from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DISCARD, FATAL, FMUError
@@ -33,16 +33,17 @@ LAST_SUCCESSFUL_TIME, TERMINATED = 2, 3
 """What FMI 2.0 calls these when a step has failed."""
 
 
-class Slave(Instance):
+class Slave(EventMode):
     """An instance at a communication point.
 
     Attributes:
         values: its parameters. time: where it is. steps: how many it has gone. started: whether it is initialized.
+        given: the inputs that hold.
     """
 
     between = "EnterStepMode"
-    own = ("due", "last", "time", "steps", "started")
-    values = b""
+    own = (*EventMode.own, "time", "steps", "started")
+    values = given = b""
     time = 0.0
     steps = 0
     started = False
@@ -57,43 +58,43 @@ class Slave(Instance):
     def start(self, time: float, parameters: bytes, inputs: bytes) -> None:
         """Begin a simulation; without inputs the FMU's own hold at the start."""
         held, given = (np.frombuffer(b).copy() for b in (parameters, inputs))
-        self.initialize(time, held.ctypes.data, given.ctypes.data if inputs else 0, again=False)
-        self.time, self.started = time, True
+        place = given.ctypes.data if inputs else 0
+        self.initialize(time, held.ctypes.data, place, again=False)
+        self.time, self.started, self.given = time, True, inputs
         if self.library.description.event_mode:
-            self.due = self.iterate(time).next
+            self.next = self.iterate(time, place, ticks=bool(inputs)).next
 
     def take(self, inputs: bytes) -> None:
         """Set the inputs that hold from now on: at an event, where the FMU has some."""
-        given = np.frombuffer(inputs).copy()
-        with self._event():
-            self._write(self._writes, given.ctypes.data, "an input")
+        self.given = inputs
+        self._happen(self._writes)
 
-    @contextmanager
-    def _event(self) -> Generator[None]:
-        """An event, at which something may be set."""
-        has_events = self.library.description.event_mode
+    def _happen(self, writes: Sequence[Any] = (), *, ticks: bool = True) -> None:
+        """An event, at which inputs may be set."""
+        has_events, given = self.library.description.event_mode, np.frombuffer(self.given).copy()
+        place = given.ctypes.data if self.given else 0
         if has_events:
             self.call("EnterEventMode")
-        yield
+        self._write(writes, place, "an input")
         if has_events:
-            self.due = self.iterate(self.time).next
+            self.next = self.iterate(self.time, place, ticks=ticks).next
 
     def advance(self, end: float) -> None:
-        """Go to the next communication point.
+        """Go to the next communication point. Clocks that tick there do so with the inputs that are taken there.
 
         Raises:
             FMUError: where the FMU does not get there.
         """
         step = self._step_2 if self.library.is_2 else self._step_3
+        before = end - TOGETHER * max(1.0, abs(end))
         for _ in range(RETURNS):
             self.check_time(end)
-            target = self.due if self.time < self.due < end else end
+            target = self.due if self.time < self.due < before else end
             self.time, event = step(self.time, target - self.time)
             if not self.time < target - 1e-9 * abs(target):
                 self.time = target
-            if event or self.time == self.due:
-                with self._event():
-                    pass
+            if event or self.time >= self.due:
+                self._happen(ticks=self.time < end)
             if self.time == end:
                 self.steps += 1
                 return
@@ -162,12 +163,15 @@ class Stepped(Computed):
         first = 2 + part.n_inputs
         width = first + part.n_parameters
         scales = np.append(self._scales, np.tile(self._scales[2:first], part.memory))
+        behind = range(first, width) if any(part.behind) else ()
         self._offer(
             step=Differentiated(
                 self._step, len(scales), 1 + part.n_values, range(first, len(scales)), scales, self._lock,
                 fast=self._by_inputs,
             ),
-            take=Differentiated(self._take, width, 1, (), self._scales, self._lock),
+            take=Differentiated(
+                self._take, width, 1 + bool(behind) * part.n_values, behind, self._scales, self._lock
+            ),
         )  # fmt: skip
 
     def _first(self, parameters: bytes, old: Instance | None) -> Slave:
@@ -189,13 +193,13 @@ class Stepped(Computed):
                 instance.free()
                 instance.make()
                 instance.start(event.time, instance.values, event.inputs)
-            return AfterEvent(0, instance.due, b"", 0)
+            return AfterEvent(0, instance.next, b"", 0)
         if instance.started:
             instance.advance(event.time)
         else:
             instance.start(event.time, instance.values, b"")
         outputs = self._outputs(instance, event.time)
-        return AfterEvent(0, instance.due, outputs.tobytes(), 0)
+        return AfterEvent(0, instance.next, outputs.tobytes(), 0)
 
     def _outputs(self, instance: Slave, time: float) -> Any:
         found = np.zeros(self._results.size)
@@ -299,10 +303,15 @@ class Stepped(Computed):
         return moved, float(inputs[place] - before)
 
     def _take(self, at: int, into: int) -> int:
-        """The number of the history behind new inputs."""
+        """The number of the history behind new inputs; and the outputs there, if clocks tick."""
         with self._lock:
             before, time = self._history(at), C.c_double.from_address(at).value
             event = PastEvent(before, time, b"", self._values_of_inputs(at), b"", timed=False)
             after = self._histories.after(self._values_of_parameters(at), event)
             C.c_double.from_address(into).value = after.history
+            if any(self.part.behind):
+                instance = self._histories.instance(self._values_of_parameters(at), after.history)
+                assert isinstance(instance, Slave)
+                outputs = self._outputs(instance, time).tobytes()
+                C.memmove(into + BYTES, outputs, len(outputs))
         return 0

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
+from xml.etree.ElementTree import Element, fromstring
 
 from acausal.errors import DeclarationError, need_package, need_whole, shortened
 from acausal.fmu.archive import DESCRIPTION, Folder
@@ -92,8 +92,32 @@ STRUCTURAL = "structuralParameter"
 STEPS = 500
 """Communication steps in an experiment of which only the length is known."""
 
-DIRECTIONAL = re.compile(rb"<ModelExchange[^>]*providesDirectionalDerivatives\s*=\s*.(?:true|1)")
-"""What fmpy does not read of FMI 3."""
+CLOCK, COUNTDOWN, TRIGGERED = "Clock", "countdown", "triggered"
+
+
+@dataclass(frozen=True)
+class FMUClock:
+    """How a clock of FMI 3.0 ticks.
+
+    Attributes:
+        kind: its ``intervalVariability``. interval: between two ticks [s], None where the FMU finds it.
+        shift: from the start to the first tick [s].
+    """
+
+    kind: str = ""
+    interval: float | None = None
+    shift: float = 0.0
+
+    @property
+    def is_periodic(self) -> bool:
+        """Whether its interval does not change."""
+        return self.kind not in ("changing", COUNTDOWN)
+
+    @property
+    def takes_interval(self) -> bool:
+        """Whether a user may say how often it ticks."""
+        known = self.kind in ("fixed", "tunable") and self.interval is not None
+        return known or self.kind == TRIGGERED
 
 
 @dataclass(frozen=True)
@@ -103,6 +127,7 @@ class FMUVariable:
     Attributes:
         type: as FMI calls it. causality, variability, initial: as FMI has them; ``initial`` may be empty.
         conversion: to the unit that it has in a model; all else is in its own ``unit``.
+        clocks: names of those at whose ticks alone it is read and set. clock: how it ticks, if it is one.
         start: as a text, or None. shape: of an array. minimum, maximum: infinite where none is given.
     """
 
@@ -120,6 +145,13 @@ class FMUVariable:
     maximum: float
     nominal: float
     text: str
+    clocks: tuple[str, ...] = ()
+    clock: FMUClock = FMUClock()
+
+    @property
+    def is_clocked(self) -> bool:
+        """Whether it can be read only while a clock ticks."""
+        return bool(self.clocks) or self.type == CLOCK
 
     @property
     def names(self) -> list[str]:
@@ -155,7 +187,8 @@ class Description:
         returns_early: whether a communication step may end before its end.
         keeps_state: whether an instance can go back to a state that it had.
         completes: whether model exchange is told of completed steps. event_mode: whether co-simulation
-            has event mode, and steps that may end at events.
+            has event mode, and steps that may end at events. evaluates: whether clocked equations are evaluated by
+            a function of their own.
     """
 
     version: str
@@ -178,6 +211,7 @@ class Description:
     keeps_state: bool
     completes: bool
     event_mode: bool
+    evaluates: bool
 
     def __hash__(self) -> int:
         return hash((self.token, self.model, self.version))
@@ -192,9 +226,25 @@ class Description:
         return [v for v in found if v.causality == causality and v.type in types]
 
     @cached_property
+    def clocks(self) -> list[FMUVariable]:
+        """Its clocks."""
+        return [v for v in self.variables.values() if v.type == CLOCK]
+
+    def is_of_ticks(self, v: FMUVariable) -> bool:
+        """Whether the ticks of clocks may change a variable."""
+        ticks = any(c.causality == "input" for c in self.clocks)
+        return v.is_clocked or (ticks and v.variability == "discrete")
+
+    @cached_property
     def parameters(self) -> list[FMUVariable]:
         """The real parameters, which a model may change and train."""
         return [v for v in self.of("parameter", REAL[:2]) if v.variability in ("fixed", "tunable")]
+
+
+def timed_clocks(description: Description, intervals: Container[str]) -> list[FMUVariable]:
+    """Clocks that tick at times that are known: by themselves, or with an interval that a user gives."""
+    asked = [v for v in description.clocks if v.causality == "input"]
+    return [v for v in asked if v.clock.kind != TRIGGERED or v.name in intervals]
 
 
 def read_description(folder: Folder, file: object, values: Mapping[str, Any]) -> Description:
@@ -215,7 +265,7 @@ def read_description(folder: Folder, file: object, values: Mapping[str, Any]) ->
     try:
         read = fmpy.read_model_description(folder.path)
         _resize(read, values)
-        return _described(read, bool(DIRECTIONAL.search(content)))
+        return _described(read, fromstring(content))
     except DeclarationError:
         raise
     except Exception as error:  # the reader of another, on a file of a third
@@ -237,13 +287,16 @@ def _resize(read: Any, values: Mapping[str, Any]) -> None:
             v.shape, v.start = tuple(shape), None
 
 
-def _described(read: Any, directional: bool) -> Description:
+def _described(read: Any, root: Element) -> Description:
     if not read.fmiVersion.startswith(("2.", "3.")):
         raise DeclarationError(
             f"FMU: FMI {read.fmiVersion} is not supported; export it by FMI 2.0 or 3.0."
         )
     units = definitions(read.unitDefinitions)
-    variables = {v.name: _variable(v, units) for v in read.modelVariables}
+    clocks = {e.get("name"): _clock(e) for e in root.iter(CLOCK)}
+    variables = {
+        v.name: _variable(v, units, clocks.get(v.name, FMUClock())) for v in read.modelVariables
+    }
     if len(variables) != len(read.modelVariables):
         raise ValueError("two variables have one name")
     exchange, cosimulation = read.modelExchange, read.coSimulation
@@ -264,11 +317,10 @@ def _described(read: Any, directional: bool) -> Description:
     indicators = read.numberOfEventIndicators
     if read.fmiVersion.startswith("3."):
         indicators = sum(variables[u.variable.name].size for u in read.eventIndicators)
-    if clocks := [v for v in variables.values() if v.type == "Clock" and v.causality == "input"]:
-        raise DeclarationError(
-            f"FMU: '{read.modelName}' has the clock '{clocks[0].name}', and clocks that a simulation must tick are not "
-            "supported; export it with sampling inside, by model exchange or co-simulation without clocks."
-        )
+    of_exchange = root.find("ModelExchange")
+    directional = of_exchange is not None and _is_true(
+        of_exchange, "providesDirectionalDerivatives"
+    )
     experiment = read.defaultExperiment
     return Description(
         version=read.fmiVersion[:1] + ".0",
@@ -291,27 +343,45 @@ def _described(read: Any, directional: bool) -> Description:
         indicators=indicators,
         once=bool(can.canBeInstantiatedOnlyOncePerProcess),
         directional=directional or bool(exchange and exchange.providesDirectionalDerivative),
-        step=_step(experiment, cosimulation),
+        step=_step(experiment, cosimulation, clocks.values()),
         returns_early=bool(getattr(cosimulation, "mightReturnEarlyFromDoStep", False)),
         keeps_state=bool(can.canGetAndSetFMUstate),
         completes=bool(exchange and exchange.needsCompletedIntegratorStep),
         event_mode=bool(getattr(cosimulation, "hasEventMode", False))
-        and cosimulation.canHandleVariableCommunicationStepSize,
+        and (bool(clocks) or cosimulation.canHandleVariableCommunicationStepSize),
+        evaluates=any(_is_true(e, "providesEvaluateDiscreteStates") for e in root),
     )
 
 
-def _step(experiment: Any, cosimulation: Any) -> float:
-    """The communication step: as the FMU suggests, else its own steps, else a part of its experiment, or of 1 s."""
+def _is_true(element: Element, name: str) -> bool:
+    """A truth value that fmpy does not read."""
+    return element.get(name) in ("true", "1")
+
+
+def _clock(element: Element) -> FMUClock:
+    """A clock, of which fmpy reads no numbers."""
+    get = element.get
+    interval, shift = (
+        float(decimal) if (decimal := get(f"{n}Decimal")) else
+        int(counter) / int(get("resolution") or 1) if (counter := get(f"{n}Counter")) else None
+        for n in ("interval", "shift")
+    )  # fmt: skip
+    return FMUClock(get("intervalVariability") or TRIGGERED, interval, shift or 0.0)
+
+
+def _step(experiment: Any, cosimulation: Any, clocks: Iterable[FMUClock]) -> float:
+    """The communication step: as the FMU suggests, else its own, its clock's, a part of its experiment, or of 1 s."""
     begin, end, step = (
         float(getattr(experiment, name, None) or 0.0)
         for name in ("startTime", "stopTime", "stepSize")
     )
     own = float(getattr(cosimulation, "fixedInternalStepSize", None) or 0.0)
-    found = step or own or (end - begin) / STEPS
+    tick = min((c.interval for c in clocks if c.interval), default=0.0)
+    found = step or own or tick or (end - begin) / STEPS
     return found if 0 < found < math.inf else 1 / STEPS
 
 
-def _variable(read: Any, units: Mapping[str, InSI]) -> FMUVariable:
+def _variable(read: Any, units: Mapping[str, InSI], clock: FMUClock) -> FMUVariable:
     declared = read.declaredType
     unit = read.unit or (declared.unit if declared is not None else None) or ""
     is_difference = read.relativeQuantity
@@ -341,6 +411,8 @@ def _variable(read: Any, units: Mapping[str, InSI]) -> FMUVariable:
         maximum=math.inf if high is None else high,
         nominal=abs(nominal) if nominal else 1.0,
         text=read.description or "",
+        clocks=tuple(c.name for c in read.clocks or ()),
+        clock=clock,
     )
     if found.type in NUMBERS and len(found.starts) != found.size:
         raise ValueError(f"'{found.name}' has {len(found.starts)} start values, not {found.size}")

@@ -44,6 +44,8 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
     ]
     if settings:
         yield "settings", _listed(settings, with_values=True)
+    if d.clocks:
+        yield "clocks", ", ".join(map(_ticks, d.clocks[:MOST]))
     if d.indicators and part.kind == "me":
         yield "events", f"{d.indicators} event indicators"
     if part.step:
@@ -68,6 +70,12 @@ def _listed(variables: list[FMUVariable], *, with_values: bool) -> str:
 
     more = f", and {len(variables) - MOST} more" if len(variables) > MOST else ""
     return ", ".join(map(one, variables[:MOST])) + more or "none"
+
+
+def _ticks(v: FMUVariable) -> str:
+    """A clock, with its interval if it is known."""
+    interval = "" if v.clock.interval is None else f" of {v.clock.interval:g} s"
+    return f"{v.name} ({v.causality}, {v.clock.kind}{interval})"
 
 
 def _derivatives(part: Part) -> str:

@@ -15,6 +15,7 @@ from jaxtyping import Array, Float
 from acausal._jax import HOST_FAILURES, call_host
 from acausal.errors import AcausalError, SimulationError
 from acausal.fmu.cosimulation import Stepped
+from acausal.fmu.description import CLOCK
 from acausal.fmu.model_exchange import NEVER, Evaluated
 from acausal.fmu.part import Part
 
@@ -40,12 +41,16 @@ class FMUFunction(eqx.Module):
         number, rows = computed(part).functions[self.kind]
         kind = jnp.result_type(*values, np.float32)
         given = [jnp.asarray(v, kind) for v in values]
-        if self.kind == "take":
-            inputs = slice(2, 2 + part.n_inputs)
+        if self.kind in ("take", "event"):
             known = part.open_loop or part.memory  # by what the model remembers of them
-            held = jax.lax.stop_gradient if known else partial(_held, part.description.model)
-            given[inputs] = [held(u) for u in given[inputs]]
-        found = _found(number, rows, *given)
+            held = jax.lax.stop_gradient if known else partial(_held, part)
+            for place in part.sampled:
+                given[place] = held(given[place])
+        old = given[-part.n_next :] if self.kind == "event" else []
+        found = _found(number, rows, *given[: len(given) - len(old)])
+        if old:  # an instant that stays has the derivative that it had
+            times, kept = slice(1, 1 + len(old)), jnp.stack(old)
+            found = found.at[times].set(jnp.where(found[times] == kept, kept, found[times]))
         return jnp.take(found, jnp.asarray(which).astype(int))
 
     def why_nonfinite(self) -> str | None:
@@ -55,17 +60,24 @@ class FMUFunction(eqx.Module):
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
-def _held(model: str, u: Float[Array, ""]) -> Float[Array, ""]:
+def _held(part: Part, u: Float[Array, ""]) -> Float[Array, ""]:
     return u
 
 
-def _refuse(model: str, at: tuple[Array], along: tuple[Any]) -> tuple[Array, Array]:
-    """How an FMU for co-simulation depends on earlier inputs is inside of it."""
+def _refuse(part: Part, at: tuple[Array], along: tuple[Any]) -> tuple[Array, Array]:
+    """How an FMU depends on inputs that it took earlier is inside of it."""
     if not isinstance(along[0], SymbolicZero):
+        clocked = part.kind == "me" or any(part.behind)
+        whose, remedy = "which its clocks take", ""
+        if not clocked:
+            whose = "whose co-simulation depends on all earlier ones"
+            remedy = (
+                "use it by model exchange; or say over how many communication steps gradients may go, ac.FMU(..., "
+                "memory=100); or, "
+            )
         raise SimulationError(
-            f"FMU: the gradient goes through the inputs of '{model}', whose co-simulation depends on all earlier ones: "
-            "use it by model exchange; or say over how many communication steps gradients may go, ac.FMU(..., "
-            "memory=100); or, if nothing that is trained acts on them, ac.FMU(..., open_loop=True)."
+            f"FMU: the gradient goes through the inputs of '{part.description.model}', {whose}: {remedy}if nothing "
+            "that is trained acts on them, ac.FMU(..., open_loop=True)."
         )
     return at[0], jnp.zeros_like(at[0])
 
@@ -137,7 +149,10 @@ def evaluated(part: Part) -> Evaluated | None:
 def has_events(part: Part) -> bool:
     """Whether there are events: nobody but the FMU itself knows of its time events."""
     known = part.description.variables.values()
-    changes = any(v.variability == "discrete" and v.causality in ("local", "output") for v in known)
+    changes = any(
+        v.type == CLOCK or (v.variability == "discrete" and v.causality in ("local", "output"))
+        for v in known
+    )
     found = evaluated(part)
     return found is not None and (
         changes or part.description.indicators > 0 or found.first_event < NEVER

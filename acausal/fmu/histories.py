@@ -45,14 +45,14 @@ START = PastEvent(-1, -float("inf"), b"", b"", b"", False)
 
 
 class AfterEvent(NamedTuple):
-    """What is behind an event: number of the history, next time event, numbers; and how often it was shifted.
+    """What is behind an event: number of the history, next events, numbers; and how often it was shifted.
 
     Attributes:
         numbers: the states, or the outputs of a communication step. signs: which indicators are positive then.
     """
 
     history: int
-    next: float
+    next: tuple[float, ...]
     numbers: bytes
     shifts: int
     signs: bytes = b""
@@ -159,7 +159,7 @@ class Histories:
         try:
             for event in events:
                 after = self._go(instance, event)
-                instance.due, instance.signs = after.next, after.signs
+                instance.next, instance.signs = after.next, after.signs
                 history = self.number(event)
                 self._keep((parameters, event), after._replace(history=history))
                 self._keep_state(parameters, history, instance)
@@ -177,7 +177,7 @@ class Histories:
         instance = self.instance(parameters, event.before)
         same = (last.time, last.inputs) == (event.time, event.inputs)
         if same and event.signs in (last.signs, instance.signs):  # it has gone through this event
-            return self._keep(key, AfterEvent(event.before, instance.due, event.states, 0))
+            return self._keep(key, AfterEvent(event.before, instance.next, event.states, 0))
         del self._instances[parameters, event.before]
         _, history = self._through(parameters, instance, [event])
         if (old := self._instances.pop((parameters, history), None)) is not None:

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import ctypes as C
 from collections.abc import Sequence
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
-from acausal.fmu.description import STRUCTURAL, FMUVariable
+from acausal.fmu.description import CLOCK, STRUCTURAL, FMUVariable
 from acausal.fmu.library import (
     BYTES,
     DISCARD,
@@ -23,17 +23,6 @@ from acausal.fmu.library import (
     Variables,
     kind_of,
 )
-
-PASSES = 100
-"""An FMU that asks for so many updates of its discrete states at one instant asks for ever."""
-
-
-class Info(NamedTuple):
-    """What an FMU says of an event: the next time event (infinite: none), and whether its states have jumped."""
-
-    next: float
-    jumped: bool
-
 
 Settings = Sequence[tuple[FMUVariable, Any]]
 """Variables with values that are fixed when an FMU is made."""
@@ -48,19 +37,22 @@ class Instance:
         inputs, results: what is set, and read, at each evaluation.
 
     Attributes:
-        due, signs: its next time event, and which indicators were positive behind the last event; whoever leads it
-            through events keeps them.
+        next, signs: when its time events and its clocks come next, and which indicators were positive behind the last
+            event; whoever leads it through events keeps them.
         last: the time at which it has asked to end the simulation. Its values can still be read there.
     """
 
-    due = last = float("inf")
+    next: tuple[float, ...] = (float("inf"),)
+    last = float("inf")
     signs = b""
 
-    between: ClassVar[str]
-    """The function that leaves event mode."""
-
-    own: ClassVar[tuple[str, ...]] = ("due", "signs", "last")
+    own: ClassVar[tuple[str, ...]] = ("next", "signs", "last")
     """Attributes that belong to its state."""
+
+    @property
+    def due(self) -> float:
+        """The next of its events whose time is known."""
+        return min(self.next)
 
     def __init__(
         self,
@@ -72,9 +64,9 @@ class Instance:
     ) -> None:
         self.library, self.settings = library, settings
         self.parameters, self.inputs, self.results = parameters, inputs, results
-        self._reads = self._calls("Get", results)
-        self._writes = self._calls("Set", inputs)
-        self._sets = self._calls("Set", parameters)
+        self._reads, self._clocked_reads = self._calls("Get", results)
+        self._writes, self._clocked_writes = self._calls("Set", inputs)
+        self._sets, _ = self._calls("Set", parameters)
         self._kept: dict[Any, tuple[int, list[Any]]] = {}
         self.make()
 
@@ -93,13 +85,14 @@ class Instance:
         self.address = library.instantiate()
         library.instances += 1
 
-    def _calls(self, verb: str, variables: Variables) -> list[tuple[Any, ...]]:
-        """For each type, the function, and what it is called with."""
-        return [
-            (self.library.accessor(verb, word), kind, references, start, size, count,
-             () if self.library.is_2 else (size,))
-            for word, kind, references, start, size, count in variables.blocks
+    def _calls(self, verb: str, variables: Variables) -> tuple[list[Any], list[Any]]:
+        """For each type, the function, and what it is called with; then the same of what is clocked, with clocks."""
+        calls = [
+            (clocks, (self.library.accessor(verb, word), kind, references, start, size, count,
+             () if self.library.is_2 else (size,)))
+            for clocks, (word, kind, references, start, size, count) in variables.blocks
         ]  # fmt: skip
+        return [call for clocks, call in calls if not clocks], [c for c in calls if c[0]]
 
     def free(self) -> None:
         """Give it back."""
@@ -194,7 +187,9 @@ class Instance:
             self.call("EnterConfigurationMode")
             self._set_all(structural)
             self.call("ExitConfigurationMode")
-        self._set_all([s for s in self.settings if s[0].causality != STRUCTURAL])
+        self._set_all(
+            [s for s in self.settings if s[0].causality != STRUCTURAL and s[0].type != CLOCK]
+        )
         self._write(self._sets, parameters, "a parameter")
         experiment = (C.c_void_p, yes, number, number, yes, number)
         if library.is_2:
@@ -208,42 +203,11 @@ class Instance:
         self.check(status, "EnterInitializationMode")
         if inputs:
             self._write(self._writes, inputs, "an input")
+        self.find_clocks(time)
         self.call("ExitInitializationMode")
 
-    def iterate(self, time: float) -> Info:
-        """Update discrete states until nothing changes any more, and leave event mode.
-
-        Raises:
-            FMUError: if they change for ever.
-        """
-        jumped = False
-        for _ in range(PASSES):
-            flags, after = self._update()
-            needed, ends, _, values, defined = flags
-            jumped = jumped or values
-            if ends:
-                self.last = time
-            if ends or not needed:
-                break
-        else:
-            raise FMUError(
-                f"FMU: '{self.library.description.model}' finds no discrete states that agree: they change for ever."
-            )
-        self.call(self.between)
-        return Info(after if defined else np.inf, jumped)
-
-    def _update(self) -> tuple[list[bool], float]:
-        if self.library.is_2:
-            info = (C.c_int * 8)()  # five flags, padding, and the time as a double
-            update = self.library.function("NewDiscreteStates", C.c_void_p, C.c_void_p)
-            self.check(update(self.address, C.addressof(info)), "NewDiscreteStates")
-            after = C.c_double.from_address(C.addressof(info) + 24).value
-            return [bool(flag) for flag in info[:5]], after
-        flags, after = [C.c_bool() for _ in range(5)], C.c_double()
-        update = self.library.function("UpdateDiscreteStates", *[C.c_void_p] * 7)
-        status = update(self.address, *map(C.addressof, flags), C.addressof(after))
-        self.check(status, "UpdateDiscreteStates")
-        return [flag.value for flag in flags], after.value
+    def find_clocks(self, time: float) -> None:
+        """Find when clocks tick first; here there are none."""
 
     def _set_all(self, settings: Settings) -> None:
         for variable, value in settings:
@@ -276,7 +240,10 @@ class Instance:
 
     def read_results(self, into: int) -> None:
         """The results, to an address."""
-        for get, kind, references, start, size, count, sizes in self._reads:
+        self._read(self._reads, into)
+
+    def _read(self, blocks: Any, into: int) -> None:
+        for get, kind, references, start, size, count, sizes in blocks:
             place = into + BYTES * start
             if kind is C.c_double:
                 status = get(self.address, references, count, place, *sizes)

@@ -9,9 +9,11 @@ from functools import cached_property
 from itertools import groupby
 from typing import Any
 
+import numpy as np
+
 from acausal.errors import SimulationError, shortened
 from acausal.fmu.archive import Folder, binary
-from acausal.fmu.description import Description, FMUVariable, Interface
+from acausal.fmu.description import CLOCK, Description, FMUVariable, Interface
 
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)
 BYTES = C.sizeof(C.c_double)
@@ -19,7 +21,7 @@ BYTES = C.sizeof(C.c_double)
 KINDS: dict[str, Any] = {
     "Real": C.c_double, "Float64": C.c_double, "Float32": C.c_float, "Integer": C.c_int,
     "Int8": C.c_int8, "Int16": C.c_int16, "Int32": C.c_int32, "Int64": C.c_int64,
-    "UInt8": C.c_uint8, "UInt16": C.c_uint16, "UInt32": C.c_uint32, "UInt64": C.c_uint64,
+    "UInt8": C.c_uint8, "UInt16": C.c_uint16, "UInt32": C.c_uint32, "UInt64": C.c_uint64, CLOCK: C.c_bool,
 }  # fmt: skip
 """The type in C by type of FMI, which is also the word in the names of its functions."""
 
@@ -40,18 +42,29 @@ class Variables:
 
     Arguments:
         kinds: of this version of FMI. variables: in order.
+
+    Attributes:
+        size: how many numbers there are. blocks: what one call takes, behind the clocks at whose ticks alone it may be
+            called. clocks: places of clocks, which are counts of their ticks, by name. starts: start values.
     """
 
     def __init__(self, version: str, variables: Sequence[FMUVariable]) -> None:
-        self.size = sum(v.size for v in variables)
-        self.blocks: list[tuple[str, Any, Any, int, int, int]] = []
+        self.blocks: list[tuple[tuple[str, ...], tuple[str, Any, Any, int, int, int]]] = []
+        self.clocks: dict[str, int] = {}
         first = 0
-        for (word, kind), run in groupby(variables, lambda v: kind_of(version, v.type)):
+        for (clocks, word, kind), run in groupby(
+            variables, lambda v: (v.clocks, *kind_of(version, v.type))
+        ):
             some = list(run)
             references = (C.c_uint32 * len(some))(*(v.reference for v in some))
             size = sum(v.size for v in some)
-            self.blocks.append((word, kind, references, first, size, len(some)))
+            if word == CLOCK:
+                self.clocks |= {v.name: first + i for i, v in enumerate(some)}
+            else:
+                self.blocks.append((clocks, (word, kind, references, first, size, len(some))))
             first += size
+        self.size = first
+        self.starts = np.asarray([s for v in variables for s in v.starts], float).tobytes()
 
 
 def kind_of(version: str, name: str) -> tuple[str, Any]:

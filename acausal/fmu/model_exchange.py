@@ -12,13 +12,14 @@ import numpy as np
 from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import Differentiated, Numbers
 from acausal.fmu.description import REAL
+from acausal.fmu.event_mode import EventMode, Info
 from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
-from acausal.fmu.instance import Info, Instance
+from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, WARNING, DiscardError, FMUError
 from acausal.fmu.part import Part
 
 
-class Exchange(Instance):
+class Exchange(EventMode):
     """One instance between its events."""
 
     between = "EnterContinuousTimeMode"
@@ -35,14 +36,14 @@ class Exchange(Instance):
     def begin(self, time: float, parameters: int, *, again: bool) -> Info:
         """Find the initial values with some parameters, given by address; see `initialize`."""
         self.initialize(time, parameters, 0, again=again)
-        return self.iterate(time)
+        return self.iterate(time, ticks=False)  # the event at the start has inputs
 
-    def happen(self, time: float) -> Info:
-        """An event at the present values, at a time; a step ends there."""
+    def happen(self, time: float, inputs: int) -> Info:
+        """An event at the present values, at a time, with inputs by address; a step ends there."""
         if self.library.description.completes:
             self._complete(time)
         self.check(self.library.calls["EnterEventMode"](self.address), "EnterEventMode")
-        return self.iterate(time)
+        return self.iterate(time, inputs)
 
     def _complete(self, time: float) -> None:
         """Tell an FMU that wants to know it that a step of the integration is completed."""
@@ -130,7 +131,7 @@ class Evaluated(Computed):
             evaluate=Differentiated(
                 self._evaluate, width, part.n_values, **common, fast=self._fast_columns, central=indicators > 0
             ),
-            event=Differentiated(self._event, width + indicators + 1, 2 + n, **common),
+            event=Differentiated(self._event, width + indicators + 1, 1 + part.n_next + n, **common),
             begin=Differentiated(self._begin, width, 1 + n, **common),
         )  # fmt: skip
         self.first_event, self.first_states = NEVER, [0.0] * n
@@ -159,7 +160,7 @@ class Evaluated(Computed):
         except BaseException:
             instance.free()
             raise
-        instance.due = min(first.next, NEVER)
+        instance.next = _limited(first)
         self._firsts[parameters] = instance.due, states.tobytes()
         if len(self._firsts) > REMEMBERED:
             self._firsts.popitem(last=False)
@@ -186,14 +187,14 @@ class Evaluated(Computed):
         else:
             if shifts:
                 instance.move(time, states.ctypes.data, inputs.ctypes.data)
-        found = instance.happen(time)
+        found = instance.happen(time, inputs.ctypes.data)
         if found.jumped:
             instance.states(states.ctypes.data)
         signs = b""
         if len(wanted):
             instance.read(values.ctypes.data)
             signs = (values[-len(wanted) :] > 0).astype(float).tobytes()
-        return AfterEvent(0, min(found.next, NEVER), states.tobytes(), shifts, signs)
+        return AfterEvent(0, _limited(found), states.tobytes(), shifts, signs)
 
     # -- functions ---------------------------------------------------------------------------------
 
@@ -221,7 +222,7 @@ class Evaluated(Computed):
         return 0
 
     def _event(self, at: int, into: int) -> int:
-        """The number of the history behind an event, the next time event, and the states."""
+        """The number of the history behind an event, the next events whose time is known, and the states."""
         number = C.c_double.from_address
         n, signs = self.part.n, self.description.indicators * BYTES
         with self._lock:
@@ -234,8 +235,8 @@ class Evaluated(Computed):
                 number(at + self._behind + signs).value > 0.5,
             )
             after = self._histories.after(self._values_of_parameters(at), event)
-            number(into).value, number(into + BYTES).value = after.history, after.next
-            C.memmove(into + 2 * BYTES, after.numbers, n * BYTES)
+            behind = np.array([after.history, *after.next]).tobytes() + after.numbers
+            C.memmove(into, behind, len(behind))
             return after.shifts
 
     def _fast_columns(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:
@@ -247,14 +248,14 @@ class Evaluated(Computed):
         instance = self._at(self._values_of_parameters(at), int(given[1]))
         instance.move(given[0], at + self._at_states, at + self._at_inputs)
         rows = [known[n] for n in (*self.description.rates, *part.results)]
-        if not all(r.type in REAL[:2] for r in rows):
+        if not all(r.type in REAL[:2] and not r.is_clocked for r in rows):
             return {}
         size = sum(r.size for r in rows)
         unknowns = (C.c_uint32 * len(rows))(*[r.reference for r in rows])
         column, done = 2, dict[int, int]()
         for name in (*self.description.states, *part.inputs):
             variable = known[name]
-            if variable.type not in REAL[:2]:
+            if variable.type not in REAL[:2] or variable.is_clocked:
                 column += variable.size
                 continue
             for seed in np.eye(variable.size):
@@ -265,3 +266,7 @@ class Evaluated(Computed):
                     done[column] = size
                 column += 1
         return done
+
+
+def _limited(found: Info) -> tuple[float, ...]:
+    return tuple(min(time, NEVER) for time in found.next)

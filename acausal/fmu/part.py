@@ -7,7 +7,7 @@ from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
-from acausal.fmu.description import Description, Interface
+from acausal.fmu.description import Description, Interface, timed_clocks
 
 
 @dataclass(frozen=True)
@@ -61,6 +61,24 @@ class Part:
         """How many numbers an evaluation gives: rates, results, indicators."""
         indicators = self.description.indicators if self.kind == "me" else 0
         return self.n + len(self.elements(self.results)) + indicators
+
+    @cached_property
+    def n_next(self) -> int:
+        """How many times of events are known: that of the FMU's next time event, and those of clocks."""
+        return 1 + len(timed_clocks(self.description, [name for name, _ in self.settings]))
+
+    @cached_property
+    def behind(self) -> list[bool]:
+        """Which results of a co-simulation are read behind the inputs of a communication point, where clocks tick."""
+        known = [self.description.variables[n] for n in self.results]
+        return [self.description.is_of_ticks(v) for v in known for _ in range(v.size)]
+
+    @cached_property
+    def sampled(self) -> list[int]:
+        """The places of inputs that only clocks or communication points take."""
+        known, first = self.description.variables, 2 + self.n
+        each = [v.is_clocked for v in (known[n] for n in self.inputs) for _ in range(v.size)]
+        return [first + i for i, clocked in enumerate(each) if clocked or self.kind == "cs"]
 
     @cached_property
     def key(self) -> str:

@@ -7,7 +7,16 @@ from numbers import Real
 from typing import Any
 
 from acausal.errors import DeclarationError, known_name, need_whole, shown
-from acausal.fmu.description import NUMBERS, REAL, STRUCTURAL, Description, FMUVariable, Interface
+from acausal.fmu.description import (
+    CLOCK,
+    NUMBERS,
+    REAL,
+    STRUCTURAL,
+    TRIGGERED,
+    Description,
+    FMUVariable,
+    Interface,
+)
 
 
 def interface(description: Description, kind: Any) -> Interface:
@@ -46,18 +55,20 @@ def communication_step(description: Description, kind: Interface, step: Any) -> 
     return float(step)
 
 
-def memory_size(kind: Interface, memory: Any, *, open_loop: bool) -> int:
+def memory_size(kind: Interface, memory: Any, *, open_loop: bool, clocked: bool) -> int:
     """The number of communication steps over which gradients go through inputs.
 
     Raises:
         DeclarationError: for what is no such number, or where it means nothing.
     """
     memory = need_whole(memory, "FMU: memory", DeclarationError, 0)
-    if memory and (kind == "me" or open_loop):
+    if memory and (kind == "me" or open_loop or clocked):
         why = (
             "model exchange, which has gradients"
             if kind == "me"
             else "open_loop=True, which has none"
+            if open_loop
+            else "one with outputs that clocks compute"
         )
         raise DeclarationError(
             f"FMU: memory={memory} is for gradients through inputs of a co-simulation, not {why}."
@@ -84,6 +95,13 @@ class Chosen:
         for name in (*values, *observe):
             known_name(name, known, refusal, DeclarationError)
         self.values = values
+        for clock in (known[n] for n in values if known[n].type == CLOCK):
+            _need_interval(clock, values[clock.name], description)
+        if kind == "cs" and description.clocks and not description.event_mode:
+            raise DeclarationError(
+                f"FMU: '{description.model}' has the clock '{description.clocks[0].name}', but its co-simulation has "
+                "no event mode in which clocks tick; use kind='me' if it has that, or export it with event mode."
+            )
         self.settings = {n: v for n, v in values.items() if _is_setting(known[n])}
         starts = [known[n] for n in values if known[n] not in description.parameters]
         starts = [v for v in starts if v.name not in self.settings and v.causality != "input"]
@@ -99,19 +117,34 @@ class Chosen:
                     f"FMU: '{description.model}' has no values for {v.size} elements of '{v.name}': give "
                     f"{{'{v.name}': ...}}, an array of shape {v.shape}."
                 )
-        self.inputs = sorted(description.of("input"), key=lambda v: NUMBERS.index(v.type))
+        inputs = sorted(description.of("input"), key=lambda v: NUMBERS.index(v.type))
+        ticks = [v for v in description.of("input", (CLOCK,)) if v.clock.kind == TRIGGERED]
+        self.inputs = [*inputs, *(v for v in ticks if v.name not in values)]
         if kind == "cs":  # an input with a value is what a parameter is: it holds from the start
             self.parameters += [v for v in self.inputs if v.name in values]
             self.inputs = [v for v in self.inputs if v.name not in values]
         results = [known[n] for n in dict.fromkeys((*description.outputs, *observe))]
-        self.results = [v for v in results if v.type in NUMBERS]
+        self.results = [v for v in results if v.type in (*NUMBERS, CLOCK)]
 
 
 def _is_setting(variable: FMUVariable) -> bool:
     """Whether a value is fixed when the FMU is made."""
     return variable.causality == STRUCTURAL or (
-        variable.causality == "parameter" and variable.type not in REAL[:2]
+        variable.type == CLOCK
+        or (variable.causality == "parameter" and variable.type not in REAL[:2])
     )
+
+
+def _need_interval(clock: FMUVariable, value: Any, description: Description) -> None:
+    """Refuse what is no interval, or is for a clock that knows its own."""
+    if clock.causality != "input" or not clock.clock.takes_interval:
+        raise DeclarationError(
+            f"FMU: the clock '{clock.name}' of '{description.model}' is {clock.clock.kind}: it takes no interval."
+        )
+    if not isinstance(value, Real) or not 0 < float(value) < math.inf:
+        raise DeclarationError(
+            f"FMU: the interval {shown(value)} of the clock '{clock.name}' must be a time above zero, in seconds."
+        )
 
 
 def name_of(variable: FMUVariable) -> str:

@@ -1,6 +1,7 @@
 """From the component tree to numbered variables, equation instances and connection sets."""
 
 import re
+from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -370,6 +371,34 @@ def test_values_from_outside_of_the_model_are_refused():
         ac.compile(outer.inner)
 
 
+def test_an_array_may_be_declared_with_a_start_for_each_element():
+    class Counts(ac.Component):
+        n = ac.Discrete((5.0, 6.0), shape=2)
+        x = ac.Variable(start=((1.0, 2.0),), shape=(1, 2))
+
+        def equations(self):
+            yield ac.When(ac.time > 0.7, *[ac.Eq(n, ac.pre(n) + 1) for n in self.n])
+            for x in self.x[0]:
+                yield ac.Eq(ac.der(x), 0)
+
+    run = ac.simulate(ac.compile(Counts()), 1.0, dt=0.5)
+    assert [run["n[1]"][0], run["n[2]"][0], run["n[2]"][-1]] == [5, 6, 7]
+    assert [run["x[1,1]"][0], run["x[1,2]"][0]] == [1, 2]
+
+
+@pytest.mark.parametrize("start", [("a", 1.0), (None, 1.0), (1.0,), ((1.0, 2.0), 3.0)])
+def test_a_start_that_lacks_a_number_for_an_element_is_refused(start: Any):
+    class Rates(ac.Component):
+        x = ac.Variable(start=start, shape=2)
+
+        def equations(self):
+            for x in self.x:
+                yield ac.Eq(ac.der(x), 0)
+
+    with pytest.raises(ac.DeclarationError, match=r"start of 'x' has no number for x\[[12]\]"):
+        ac.compile(Rates())
+
+
 def test_wrong_sizes():
     class Table(ac.Component):
         k = ac.Parameter(shape=3)
@@ -383,7 +412,7 @@ def test_wrong_sizes():
         ac.compile(model(a=Table(k=[1.0, 2.0])))
     with pytest.raises(ac.DeclarationError, match="needs 3 values, got 1 by 3"):
         ac.compile(model(a=Table(k=[[1.0, 2.0, 3.0]])))
-    with pytest.raises(ac.DeclarationError, match=r"start of 'x' has no element for x\[3\]"):
+    with pytest.raises(ac.DeclarationError, match=r"start of 'x' has no number for x\[3\]"):
         ac.compile(model(a=Table(k=[1.0, 2.0, 3.0], x=ac.Start([1.0, 2.0]))))
 
 

@@ -293,9 +293,9 @@ def test_instances_go_back_to_states_that_they_had(
     times: list[float] = []
     happen = Exchange.happen
 
-    def counted(self: Exchange, time: float) -> Any:
+    def counted(self: Exchange, time: float, inputs: int) -> Any:
         times.append(time)
-        return happen(self, time)
+        return happen(self, time, inputs)
 
     monkeypatch.setattr(Exchange, "happen", counted)
     system = ac.compile(ac.FMU(exported(Mass), {"f": 1.0}, step=0.01))  # an event each
