@@ -78,18 +78,13 @@ def test_adaptive_solvers_agree(solver):
 @pytest.mark.slow
 def test_auto_takes_an_implicit_solver_for_a_stiff_model():
     params = plain().parameters() | {"spring.d": 1e6, "mass.m": 1.0}  # modes at -1e6 and -5e-5 1/s
-    sol = ac.simulate(plain(), (0, 10), params=params, inputs=NO_FORCE, x0=AT_ONE, max_steps=1000)
+    run: dict[str, Any] = {"params": params, "inputs": NO_FORCE, "x0": AT_ONE}
+    sol = ac.simulate(plain(), (0, 10), max_steps=1000, **run)
     assert float(sol["mass.s"][-1]) == pytest.approx(np.exp(-50e-6 * 10), rel=1e-6)
     with pytest.raises(ac.SimulationError, match=r"after max_steps=1000\. Perhaps it is stiff"):
-        ac.simulate(
-            plain(),
-            (0, 10),
-            params=params,
-            inputs=NO_FORCE,
-            x0=AT_ONE,
-            max_steps=1000,
-            solver="tsit5",
-        )
+        ac.simulate(plain(), (0, 10), max_steps=1000, solver="tsit5", **run)
+    with pytest.raises(ac.SimulationError, match=r"after max_steps=5\. Perhaps it slides"):
+        ac.simulate(plain(), (0, 10), max_steps=5, solver="stiff", **run)
 
 
 # -- inputs ------------------------------------------------------------------------------------------

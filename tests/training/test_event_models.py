@@ -150,3 +150,34 @@ def test_laws_at_events_are_trained_and_laws_of_discrete_variables_see_their_val
     np.testing.assert_allclose(fit.arguments["actuator"][:, 0], found["u"], atol=1e-9)
     e = r - np.asarray(found["x"])
     np.testing.assert_allclose(fit.arguments["controller"][:, 0], e, atol=1e-9)
+
+
+class SampleAndHold(ac.Component):
+    """It keeps what it has read, and integrates it."""
+
+    k, period = ac.Parameter(1.0), ac.Parameter(0.1)
+    r = ac.Input()
+    u = ac.Discrete(0.0)
+    x = ac.Variable(start=0.0)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), self.k * self.u)
+        yield ac.When(ac.sample(0.0, self.period), ac.Eq(self.u, self.r))
+
+
+def sampled_record(seed: int, n: int) -> ac.Data:
+    """An input that jumps every 0.1 s, and its integral, every 0.01 s."""
+    r = np.repeat(np.random.default_rng(seed).standard_normal(n // 10 + 1), 10)[: n + 1]
+    x = np.append(0.0, np.cumsum(r[:-1]) * 0.01)
+    return ac.Data(0.01 * np.arange(n + 1), {"r": r, "x": x}, interpolation={"r": "previous"})
+
+
+@pytest.mark.parametrize("period", [0.1, 0.01])
+def test_a_tick_at_a_jump_reads_what_is_behind_it_in_each_of_several_records(period: float) -> None:
+    records = {"a": sampled_record(0, 400), "b": sampled_record(1, 300)}
+    options: dict[str, Any] = {"strategy": "whole_record", "epochs": 1, "x0": "model"}
+    system, params = ac.compile(SampleAndHold()), {"period": period}
+    fit = ac.fit(system, records, ["x"], params=params, modifiers=["k"], solver="heun", **options)
+    found = np.asarray(fit.problem.simulate(fit.problem.start()).y)[:, 0]
+    exact = np.concatenate([r.signals["x"] for r in records.values()])
+    np.testing.assert_allclose(found, exact, atol=1e-12)

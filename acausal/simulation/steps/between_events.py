@@ -27,6 +27,7 @@ from acausal.simulation.steps.problem import Attempt, Counts, Integration
 from acausal.simulation.steps.rows import (
     EDGE,
     JUMP,
+    JUMP,
     RESTART,
     STATE,
     TIMED,
@@ -151,10 +152,13 @@ def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
     ahead = (known.t > t + apart) | (waits & (known.t > t))
     times = jnp.where(ahead, known.t, jnp.inf)
     j = jnp.argmin(times)
-    first = times[j] <= stop.t + apart
+    first = times[j] <= stop.t + jnp.where(stop.kind == RESTART, -apart, apart)
+    # at an input's jump, conditions see what is behind it, whatever rounding says
+    meets = (stop.kind == JUMP) & (times[j] >= stop.t - apart)
+    time = jnp.where(meets, jnp.maximum(times[j], stop.t), times[j])
     rounding = 2 * apart * jnp.abs(known.rate)
     return Stop(
-        jnp.where(first, times[j], stop.t),
+        jnp.where(first, time, stop.t),
         jnp.where(first, TIMED, stop.kind).astype(jnp.int32),
         jnp.where(first, j, stop.which).astype(jnp.int32),
         jnp.where(first & (times <= times[j] + apart), rounding, band),

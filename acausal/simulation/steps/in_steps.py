@@ -93,9 +93,10 @@ class InSteps:
             if int(why) == REACHED:
                 run.refuse_broken(x, self.saved, solved.method)
             else:
-                has_dt, automatic = self.ends is not None, self.solver is None
+                has_dt = self.ends is not None
+                explicit = self.solver is not None and not int(c.jacobians)
                 most = posed.problem.max_steps if has_dt else self.max_steps
-                raise _stopped(run, solved, int(why), most, has_dt, automatic)
+                raise _stopped(run, solved, int(why), most, has_dt, explicit)
         own = c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
         statistics = Statistics(solved.method, *own, c.edges, c.by_wave, c.by_span, c.looks)
         ts = posed.problem.ts
@@ -139,7 +140,7 @@ class InSteps:
 
 
 def _stopped(
-    run: Run, solved: Solved, why: int, max_steps: int, has_dt: bool, automatic: bool
+    run: Run, solved: Solved, why: int, max_steps: int, has_dt: bool, explicit: bool
 ) -> SimulationError:
     """Why a run stopped short of its end."""
     found = solved.found
@@ -180,7 +181,7 @@ def _stopped(
             "The model may diverge there: check its parameters, initial values and inputs."
         )
     slides = "" if found.log is None else f"It has had {int(found.log.total)} events{last}. "
-    hint = "" if automatic else "it is stiff (choose solver='auto' or 'stiff'), "
+    hint = "it is stiff (choose solver='auto' or 'stiff'), " if explicit else ""
     return StepLimitError(
         f"{where}, after max_steps={max_steps}. {slides}Perhaps {hint}it slides or diverges there, or its inputs are "
         "rough (raise max_steps, loosen rtol, or give dt for fixed steps)."
