@@ -27,7 +27,6 @@ from acausal.simulation.steps.problem import Attempt, Counts, Integration
 from acausal.simulation.steps.rows import (
     EDGE,
     JUMP,
-    JUMP,
     RESTART,
     STATE,
     TIMED,
