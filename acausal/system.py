@@ -178,12 +178,10 @@ class System(LeavesCaches):
 
     @cached_property
     def held_inputs(self) -> frozenset[str]:
-        """Names of the inputs that are truth values, whole numbers or modes: they are held from sample to sample."""
+        """Names of inputs that are held from sample to sample: truth values, whole numbers, modes, or so declared."""
         declared = map(self.flat.layout.variable_declaration, self.flat.inputs.tolist())
         pairs = zip(self.flat.inputs.tolist(), declared, strict=True)
-        held = [
-            v for v, d in pairs if isinstance(d, Discrete) or getattr(d, "kind", "real") != "real"
-        ]
+        held = [v for v, d in pairs if isinstance(d, Discrete) or getattr(d, "held", False)]
         return frozenset(map(self.flat.layout.variable, held))
 
     @property

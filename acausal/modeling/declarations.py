@@ -226,13 +226,21 @@ class Input(Variable):
     """A causal signal that enters; left unconnected it becomes an input of the model.
 
     Arguments:
-        kind: ``"real"``, ``"bool"`` (1 or 0) or ``"int"``. As an input of the model, one that is not real is held from
-            sample to sample unless a record says otherwise.
+        kind: ``"real"``, ``"bool"`` (1 or 0) or ``"int"``.
         default: what it is as an input of the model where nothing is given for it; a tuple for each of several.
+        held: whether, as an input of the model, it is held from sample to sample unless a record says otherwise;
+            ``None``: where it is not real.
         others: as of `Variable`.
     """
 
-    def __init__(self, *, kind: Kind = "real", default: Any = None, **others: Any) -> None:
+    def __init__(
+        self,
+        *,
+        kind: Kind = "real",
+        default: Any = None,
+        held: bool | None = None,
+        **others: Any,
+    ) -> None:
         if not isinstance(kind, str) or kind not in KINDS:
             raise DeclarationError(f"kind={shown(kind)} must be one of {', '.join(KINDS)}")
         if default is not None and not _are_numbers(default):
@@ -241,6 +249,7 @@ class Input(Variable):
             )
         super().__init__(**others)
         self.kind, self.default = kind, default
+        self.held = kind != "real" if held is None else need_flag(held, "held", DeclarationError)
 
 
 def is_number(value: Any) -> bool:
