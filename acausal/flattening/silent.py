@@ -141,8 +141,19 @@ def _changes(relation: Any) -> bool:
     return any(time in line.diff(time).free_symbols for line in lines)
 
 
+def has_jumps(side: Any) -> bool:
+    """Whether a case distinction of an expression jumps, at times that are not known ahead and no events yet."""
+    return any(
+        _changes(relation) and _jumps(relation, value - otherwise)
+        for _, condition, value, otherwise in _cases([side], with_events=True)
+        for relation in condition.atoms(Relational)
+    )
+
+
 def _jumps(relation: Any, difference: Any) -> bool:
     """Whether a difference is not zero where a relation changes, as far as some points can tell."""
+    if difference.is_number:
+        return difference != 0
     number = relation.lhs - relation.rhs
     symbols = sorted(number.free_symbols, key=str)
     for symbol in symbols:

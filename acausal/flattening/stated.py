@@ -15,7 +15,7 @@ from sympy.core.relational import Relational
 
 from acausal.errors import DeclarationError
 from acausal.flattening.origin import HIDDEN
-from acausal.flattening.silent import Silent
+from acausal.flattening.silent import Silent, has_jumps
 from acausal.modeling import (
     HALF,
     INITIAL,
@@ -133,6 +133,7 @@ class _Sorting:
         """All of it, each where it belongs."""
         equations: list[Eq] = []
         whens = [one for one in stated if isinstance(one, When)]
+        deciding = _deciding(stated)
         for one in stated:
             if isinstance(one, When):
                 continue  # after all others, whose comparisons it may repeat
@@ -142,7 +143,7 @@ class _Sorting:
                 value = one.rhs if target is one.lhs else one.lhs
                 self._update(target, self._watched(number_or_truth(value)), _written(one, target))
             else:
-                equations.append(self._continuous(one))
+                equations.append(self._continuous(one, decides=id(one) in deciding))
         for one in whens:
             self._when(one)
         return Stated(
@@ -155,8 +156,10 @@ class _Sorting:
 
     # -- equations ---------------------------------------------------------------------------------
 
-    def _continuous(self, equation: Eq) -> Eq:
+    def _continuous(self, equation: Eq, *, decides: bool) -> Eq:
         sides = [number_or_truth(s) for s in (equation.lhs, equation.rhs)]
+        if decides:
+            sides = [self._watched(s) if has_jumps(s) else s for s in sides]
         if any(s.has(Watched, Floored, Previous, Tick) for s in sides):
             sides = [self._held(self._cases(side)) for side in sides]
         return Eq(*sides).stated_in(equation.place)
@@ -366,6 +369,27 @@ def _discrete_side(equation: Eq) -> Reference | None:
         if isinstance(side, Reference) and isinstance(side.declaration, Variable):
             return side if isinstance(side.declaration, Discrete) else None
     return None
+
+
+def _deciding(stated: Sequence[Any]) -> set[int]:
+    """The equations, by identity, of variables that conditions of events, and discrete variables, follow from."""
+    wanted: set[Any] = set()
+    rest: list[Eq] = []
+    for one in stated:
+        if isinstance(one, When):
+            wanted |= {s for link in one.chain() for c in link.conditions for s in c.free_symbols}
+        elif isinstance(one, Eq):
+            sides = [number_or_truth(s) for s in (one.lhs, one.rhs)]
+            if _discrete_side(one) is None:
+                rest.append(one)
+                sides = [w.args[0] for s in sides for w in s.atoms(Watched)]
+            wanted |= {symbol for side in sides for symbol in side.free_symbols}
+    found: set[int] = set()
+    while more := [e for e in rest if id(e) not in found and wanted & {e.lhs, e.rhs}]:
+        found |= {id(e) for e in more}
+        sides = [number_or_truth(s) for e in more for s in (e.lhs, e.rhs)]
+        wanted |= {symbol for side in sides for symbol in side.free_symbols}
+    return found
 
 
 def _written(equation: Eq, target: Reference) -> str:

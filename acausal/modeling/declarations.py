@@ -248,8 +248,14 @@ class Input(Variable):
                 f"default={shown(default)} must be a number, or a tuple of numbers"
             )
         super().__init__(**others)
-        self.kind, self.default = kind, default
-        self.held = kind != "real" if held is None else need_flag(held, "held", DeclarationError)
+        if held is not None:
+            need_flag(held, "held", DeclarationError)
+        self.kind, self.default, self.held = kind, default, held
+
+    @property
+    def is_held(self) -> bool:
+        """Whether, as an input of the model, it is held from sample to sample."""
+        return self.kind != "real" if self.held is None else self.held
 
 
 def is_number(value: Any) -> bool:
