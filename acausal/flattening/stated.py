@@ -15,7 +15,7 @@ from sympy.core.relational import Relational
 
 from acausal.errors import DeclarationError
 from acausal.flattening.origin import HIDDEN
-from acausal.flattening.silent import Silent, has_jumps
+from acausal.flattening.silent import Silent, changing, has_jumps, in_steps, is_continuous
 from acausal.modeling import (
     HALF,
     INITIAL,
@@ -141,6 +141,12 @@ class _Sorting:
                 equations.append(one)  # refused where templates are made
             elif (target := _discrete_side(one)) is not None:
                 value = one.rhs if target is one.lhs else one.lhs
+                if (by := changing(number_or_truth(value), stated)) is not None:
+                    raise DeclarationError(
+                        f"{self.component._node.label}: the discrete variable '{target.path}' changes at events alone, "
+                        f"but by {_written(one, target)} it would follow '{by}' between them, too; declare it as "
+                        "ac.Variable, or give it in ac.When(...), such as ac.When(ac.sample(0, period), ...)"
+                    )
                 self._update(target, self._watched(number_or_truth(value)), _written(one, target))
             else:
                 equations.append(self._continuous(one, decides=id(one) in deciding))
@@ -247,7 +253,7 @@ class _Sorting:
 
     def _watched(self, expression: Any) -> Any:
         """The value of a discrete equation, all its conditions watched."""
-        pieces = literal(expression.replace(Floored, self._floor))
+        pieces = literal(in_steps(expression).replace(Floored, self._floor))
         conditions = {c for p in pieces.atoms(sp.Piecewise) for _, c in p.args}
         replaced = {c: self._truth(c) for c in _in_order(conditions) if c is not sp.true}
         return self._ticking(pieces.xreplace(replaced))
@@ -277,7 +283,7 @@ class _Sorting:
         replaced = {
             r: sp.Gt(self._guard(r), HALF)
             for r in _in_order(condition.atoms(Relational))
-            if _is_continuous(r)
+            if is_continuous(r)
         }
         return self._ticking(condition.xreplace(replaced))
 
@@ -413,15 +419,3 @@ def _in_order(expressions: Iterable[Any]) -> list[Any]:
 def _serial(symbol: Any) -> int:
     reference = symbol.reference if isinstance(symbol, Previous) else symbol
     return reference.serial if isinstance(reference, Reference) else -1
-
-
-def _is_continuous(relation: Relational) -> bool:
-    """Whether a comparison can change between events."""
-    for symbol in relation.free_symbols:
-        if symbol == time:
-            return True
-        if isinstance(symbol, Reference):
-            declared = symbol.declaration
-            if isinstance(declared, Variable) and not isinstance(declared, Discrete):
-                return True
-    return bool(relation.has(sp.Function) and not relation.free_symbols)
