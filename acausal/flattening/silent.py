@@ -15,6 +15,7 @@ from sympy.core.relational import Relational
 
 from acausal.flattening.reading import read_statements
 from acausal.modeling import (
+    INITIAL,
     Component,
     Discrete,
     Eq,
@@ -197,9 +198,8 @@ def changing(value: Any, stated: Sequence[Any]) -> Any:
         quiet = left.pop()
         if quiet.has(ModuleCall):
             continue
-        replaced = {p: p.reference for p in quiet.atoms(Previous)} | dict.fromkeys(
-            quiet.atoms(Tick), sp.S.Zero
-        )
+        replaced = {p: p.reference for p in quiet.atoms(Previous)}
+        replaced |= dict.fromkeys([INITIAL, *quiet.atoms(Tick)], sp.S.Zero)
         quiet = literal(in_steps(quiet).replace(Floored, lambda *_: sp.S.Zero).xreplace(replaced))
         for symbol in sorted(_acting(quiet, with_events=False).free_symbols - seen, key=str):
             if symbol == time or symbol in states:
