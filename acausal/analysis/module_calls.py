@@ -79,11 +79,7 @@ def _stated(system: System, at_events: bool) -> Iterator[tuple[EquationGroup, An
 
     Each is given by its group, the call, and the module that each row calls.
     """
-    flat, events = system.flat, system.flat.events
-    conditions = (guard.group for guard in events.guards)
-    changes = (*events.updates, *events.jumps) if at_events else ()
-    given = (stated.as_equation("value") for stated in changes)
-    for group in (*flat.groups, *conditions, *given):
+    for group in system.flat.equations(at_events=at_events):
         if group.template.modules:
             for call in sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key):
                 slot = group.template.modules.index(call.args[0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -80,6 +80,19 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
         guards = [g.targets for g in self.events.guards]
         watched = np.concatenate([np.zeros(0, np.int64), *guards])
         return np.concatenate([watched, np.setdiff1d(declared, [*watched, *self.given])])
+
+    def equations(self, *, initial: bool = False, at_events: bool = True) -> Iterator[EquationGroup]:
+        """All equations: those that always hold, conditions, and what variables become at events.
+
+        Arguments:
+            initial: whether those at the initial time are among them.
+            at_events: whether those are by which variables change at events.
+        """
+        yield from (*self.groups, *(self.initial if initial else ()))
+        yield from (guard.group for guard in self.events.guards)
+        for update in (*self.events.updates, *self.events.jumps) if at_events else ():
+            name = self.layout.variable(int(update.targets[0])).rpartition(".")[2]
+            yield update.as_equation(name)
 
     def stated_at(self, component: int, origin: object) -> str:
         """Where an equation is stated, and its text, for messages.

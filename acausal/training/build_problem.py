@@ -191,22 +191,18 @@ def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
 def trained_networks(
     system: System, train: Iterable[str] | None, params: Mapping[str, Any]
 ) -> tuple[str, ...]:
-    """The networks to train: by default all that an equation calls."""
-    found = [name for name in networks(params) if _is_called(system, name)]
+    """The networks to train: by default all that an equation calls; options of components may leave some out."""
+    layout, called = system.layout, set[int]()
+    for group in system.flat.equations():
+        called.update(layout.module_of[group.modules].ravel().tolist())
+    own = dict(zip(layout.module_names, layout.own_modules, strict=True))
+    found = [name for name in networks(params) if own[name] in called]
     if train is None:
         return tuple(found)
     chosen = names_in(train, "train")
     for name in chosen:
         known_name(name, found, "There is no network", TrainingError, " to train:")
     return chosen
-
-
-def _is_called(system: System, network: str) -> bool:
-    """Whether an equation calls a network; an option of its component may have left it out."""
-    layout, flat = system.layout, system.flat
-    target = layout.own_modules[layout.module_names.index(network)]
-    groups = (*flat.groups, *(stated.group for stated in flat.events.all))
-    return any(bool((layout.module_of[group.modules] == target).any()) for group in groups)
 
 
 def _check_targets(system: System, targets: tuple[str, ...]) -> None:
