@@ -10,9 +10,11 @@ from argparse import (
     ArgumentTypeError,
     Namespace,
     RawDescriptionHelpFormatter,
-    _SubParsersAction,  # pyright: ignore[reportPrivateUsage] (argparse has no public name for it)
+    _ActionsContainer,  # pyright: ignore[reportPrivateUsage] (argparse has no public names for these)
+    _SubParsersAction,  # pyright: ignore[reportPrivateUsage]
 )
 from collections.abc import Callable
+from functools import partial
 from glob import iglob
 from pathlib import Path
 from textwrap import dedent, fill
@@ -53,7 +55,7 @@ def add_command(
 
 
 def add_by_name(
-    parser: ArgumentParser,
+    parser: _ActionsContainer,
     *flags: str,
     text: str,
     read: Callable[[str], tuple[str, Any]],
@@ -83,7 +85,8 @@ def add_model(parser: ArgumentParser, several: str | None = None) -> None:
     words = "parts of the model's file may run native code, FMUs; only for files from people whom you trust"
     parser.add_argument("--allow-native", action="store_true", help=words)
     words = "another part in the place of one, such as suspension.damper=neural.Resistance"
-    add_by_name(parser, "--replace", text=words, read=text_by_name, metavar="PART=CLASS")
+    read = partial(text_by_name, form="PART=CLASS")
+    add_by_name(parser, "--replace", text=words, read=read, metavar="PART=CLASS")
 
 
 READ = ("model", "data", "training", "inputs", "params", "options")
@@ -122,15 +125,15 @@ def add_parameters(parser: ArgumentParser) -> None:
     add_by_name(parser, "--set", text=words, read=number_by_name)
 
 
-def text_by_name(text: str) -> tuple[str, str]:
+def text_by_name(text: str, form: str = "NAME=VALUE") -> tuple[str, str]:
     """``damper=neural.Resistance`` as a name and a text.
 
     Raises:
-        ArgumentTypeError: for a text without a name and an equals sign.
+        ArgumentTypeError: for a text without a name, an equals sign, or what follows it.
     """
-    name, equals, value = text.partition("=")
-    if not name or not equals:
-        raise ArgumentTypeError(f"'{text}' is not NAME=VALUE")
+    name, _, value = text.partition("=")
+    if not name or not value:
+        raise ArgumentTypeError(f"'{text}' is not {form}")
     return name, value
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, Namespace
+from functools import partial
 from typing import Any
 
 import acausal as ac
+from acausal.command.arguments import add_by_name, text_by_name
 from acausal.errors import shown
 
 
@@ -17,14 +19,9 @@ def add_reading(parser: ArgumentParser) -> None:
         "--group", metavar="COLUMN", help="the column that says which run a row belongs to"
     )
     group.add_argument("--columns", nargs="+", metavar="NAME", help="read these columns alone")
-    group.add_argument(
-        "--rename",
-        action="append",
-        default=[],
-        type=_renaming,
-        metavar="COLUMN=NAME",
-        help="the model's variable that a column is, such as 'ch 7=mass.a'; can be repeated",
-    )
+    words = "the model's variable that a column is, such as 'ch 7=mass.a'"
+    read = partial(text_by_name, form="COLUMN=NAME")
+    add_by_name(group, "--rename", text=words, read=read, metavar="COLUMN=NAME")
     group.add_argument(
         "--missing",
         choices=("refuse", "nan"),
@@ -58,10 +55,3 @@ def read_record(path: str, args: Namespace) -> ac.Data:
     if isinstance(found, dict):
         raise ac.DataError(f"{shown(path)} are several files; give one.")
     return found
-
-
-def _renaming(text: str) -> tuple[str, str]:
-    column, _, name = text.partition("=")
-    if not column or not name:
-        raise ArgumentTypeError(f"'{text}' is not COLUMN=NAME")
-    return column, name

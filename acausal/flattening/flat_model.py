@@ -81,7 +81,9 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
         watched = np.concatenate([np.zeros(0, np.int64), *guards])
         return np.concatenate([watched, np.setdiff1d(declared, [*watched, *self.given])])
 
-    def equations(self, *, initial: bool = False, at_events: bool = True) -> Iterator[EquationGroup]:
+    def equations(
+        self, *, initial: bool = False, at_events: bool = True
+    ) -> Iterator[EquationGroup]:
         """All equations: those that always hold, conditions, and what variables become at events.
 
         Arguments:
