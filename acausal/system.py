@@ -54,7 +54,7 @@ from acausal.flattening import (
 )
 from acausal.initialization import Initialization, Initializer, initializer, overview
 from acausal.jobs import collection_paused
-from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
+from acausal.modeling import Budget, Component, Discrete, Name, Option, antiderivatives, names_in
 from acausal.structure import ReducedModel, reduce, with_loop_guesses
 from acausal.units import check_dimensions
 
@@ -625,9 +625,7 @@ class System(LeavesCaches):
 
     def _find(self, name: str) -> tuple[int, int]:
         """Node and sign of a variable or a known derivative."""
-        inner, order = name, 0
-        while inner.startswith("der(") and inner.endswith(")"):
-            inner, order = inner[4:-1], order + 1
+        *derivatives, inner = antiderivatives(name)
         index = self.flat.layout.find_variable(inner)
         if index is None:
             hint = nearest(inner, self.variables)
@@ -636,7 +634,7 @@ class System(LeavesCaches):
                     f"elements are counted from 1, as in Modelica: '{inner.replace('[0]', '[1]')}'?"
                 )
             raise ModelError(f"the model has no variable '{inner}'; {hint}")
-        found = self.reduced.resolve_derivative(index, order)
+        found = self.reduced.resolve_derivative(index, len(derivatives))
         if found is None:
             raise ModelError(f"the model does not differentiate '{name.removeprefix('der(')[:-1]}'")
         return found

@@ -20,6 +20,7 @@ from jaxtyping import Array, Float, Int
 from acausal._jax import array
 from acausal.data import FRACTIONS, Signal, deviation_from_line, polynomial_coefficients
 from acausal.errors import TrainingError
+from acausal.modeling import antiderivatives
 from acausal.simulation import (
     Parts,
     Samples,
@@ -198,10 +199,8 @@ def delayed_inputs(
     functions_of = list(zip(*functions, strict=True))
     found: dict[int, tuple[str, Pieces]] = {}
     for column, name in enumerate(inputs):
-        source = name
-        while source not in timing.delays and source.startswith("der("):
-            source = source[4:-1]
-        if source not in timing.delays:
+        source = next((form for form in antiderivatives(name) if form in timing.delays), None)
+        if source is None:
             continue
         signals = functions_of[column]
         if delay_of(source) in timing.trained and any(

@@ -19,6 +19,7 @@ from jaxtyping import Array, Float
 from acausal._jax import is_number
 from acausal.data import Data
 from acausal.errors import TrainingError, known_name, need_flag, shown
+from acausal.modeling import antiderivatives
 from acausal.training.objective.modifiers import Bounded, Modifier, Modifiers
 
 SAMPLES = 20
@@ -135,7 +136,7 @@ def timing(
     late, slow = dict(delays or {}), dict(lags or {})
     targets = list(targets)
     for what, chosen, known in (
-        ("delays", late, [*map(_measured, inputs), *targets]),
+        ("delays", late, [*(antiderivatives(n)[-1] for n in inputs), *targets]),
         ("lags", slow, targets),
     ):
         for name in chosen:
@@ -149,13 +150,6 @@ def timing(
     return found, Modifiers(
         tuple(trained), tuple(trained.values()), tuple(starts[n] for n in trained)
     )
-
-
-def _measured(name: str) -> str:
-    """The input that a derivative of it belongs to."""
-    while name.startswith("der(") and name.endswith(")"):
-        name = name[4:-1]
-    return name
 
 
 def _time(kind: str, name: str, given: object, limit: float) -> tuple[float, Modifier | None]:
