@@ -15,7 +15,7 @@ from acausal.drawing import diagram_svg
 from acausal.errors import AcausalError
 from acausal.flattening import is_hidden
 from acausal.modeling import Component, Eq, Module, Option
-from acausal.pages.energy_of_components import energy_blocks, power_names
+from acausal.pages.energy import energy_blocks, power_names
 from acausal.pages.own_law import own_equations
 from acausal.pages.trajectories import plot_of_runs, plots_by_unit
 from acausal.reporting import (

@@ -49,6 +49,7 @@ from acausal.reporting.model_view import (
 from acausal.reporting.over_time import (
     plot_over_time as plot_over_time,
     plot_predictions as plot_predictions,
+    plot_variants as plot_variants,
 )
 from acausal.reporting.plain_table import PlainTable as PlainTable, aligned as aligned
 from acausal.reporting.plot import (
@@ -61,7 +62,6 @@ from acausal.reporting.plot import (
     plot_learned as plot_learned,
 )
 from acausal.reporting.short_names import Short as Short, shorten as shorten
-from acausal.reporting.variants import plot_variants as plot_variants
 from acausal.reporting.view import (
     Html as Html,
     View as View,
