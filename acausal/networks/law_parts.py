@@ -52,14 +52,20 @@ class Even(Wrapper):
 
 
 class OffsetCorrected(Wrapper):
-    """A network less its value at zero: ``F̃(x) = F(x) − F(0)``, the paper's (5).
+    """A network less its value at zero: ``F̃(x) = F(x) − F(0)``, the paper's (5); an energy less its value at rest.
 
-    With secondary inputs only the first is set to zero: ``F̃(x, T) = F(x, T) − F(0, T)``.
+    With secondary inputs only the first are set to zero: ``F̃(x, T) = F(x, T) − F(0, T)``.
+
+    Attributes:
+        inputs: how many are set to zero.
     """
+
+    inputs: int = eqx.field(static=True, default=1)
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The corrected output for scalar inputs."""
-        return self.net(*inputs) - self.net(jnp.zeros_like(inputs[0]), *inputs[1:])
+        rest = [jnp.zeros_like(x) for x in inputs[: self.inputs]]
+        return self.net(*inputs) - self.net(*rest, *inputs[self.inputs :])
 
 
 class DryFrictionFactor(eqx.Module):

@@ -63,12 +63,10 @@ def nothing(*inputs: Any) -> Array:
     return jnp.zeros(())
 
 
-def linear_module(shape: LawShape, law: Affine | None = None) -> BesideLinear | BesideQuadratic:
-    """A linear law, or the energy of one; by default zero."""
-    slope = np.zeros(shape.inputs) if law is None else np.asarray(law.slope)
-    offset = None if shape.through_zero else jnp.asarray(law.offset if law else 0.0, float)
+def linear_module(shape: LawShape) -> BesideLinear | BesideQuadratic:
+    """A linear law, or the energy of one, that is zero."""
     kind = BesideQuadratic if shape.energy else BesideLinear
-    return kind(nothing, jnp.asarray(slope, float), offset)
+    return kind(nothing, jnp.zeros(shape.inputs), None if shape.through_zero else jnp.zeros(()))
 
 
 @dataclass(frozen=True, eq=False)
