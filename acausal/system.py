@@ -512,13 +512,10 @@ class System(LeavesCaches):
         return at._replace(d=self.initializer.conditions.discrete_start(packed))
 
     def watching(self, names: Iterable[str]) -> System:
-        """The model in which the library's conditions are events, where some parameters act through such alone.
+        """The model in which the library's conditions are events, where some of these parameters act through such alone.
 
         Without events their derivatives would be zero. `acausal.simulate` and `acausal.fit` ask for it where
         derivatives by these parameters are wanted; else the model is simulated as it is, which is faster.
-
-        Arguments:
-            names: of parameters.
         """
         silent = self.flat.silent
         return self._watched if any(n in silent and silent[n].asked for n in names) else self

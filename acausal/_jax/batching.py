@@ -97,12 +97,7 @@ def _in_groups(
 
 
 def is_small(jaxpr: Jaxpr, in_loop: bool = False) -> bool:
-    """Whether XLA will compile the loops of a jaxpr as a whole.
-
-    Arguments:
-        jaxpr: what to look at.
-        in_loop: whether all of it is part of a loop.
-    """
+    """Whether XLA will compile the loops of a jaxpr, which may be part of a loop itself, as a whole."""
     equations = list(primitives.all_equations(jaxpr, in_loop))
     return (
         len(equations) <= MOST

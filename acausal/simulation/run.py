@@ -142,10 +142,6 @@ class Run(NamedTuple):
     def explain(self, at: Values, ahead: float) -> str:
         """Find the equation without a finite value at a point, or within some seconds along its derivative.
 
-        Arguments:
-            at: the point, from `at`.
-            ahead: how far to look [s].
-
         Returns:
             A sentence; an empty text where nothing is found, or where the state itself has run away.
         """

@@ -83,11 +83,7 @@ def fastest_mode(system: System, values: Values) -> tuple[float, float]:
 
 
 def modes(system: System, points: Values) -> NDArray[np.complex128] | None:
-    """Eigenvalues of the model linearized at n points, (n, n_states) [1/s]; None where it has no finite derivatives.
-
-    Arguments:
-        points: the values there, none of them traced.
-    """
+    """Eigenvalues of the model linearized at n points, (n, n_states) [1/s]; None where it has no finite derivatives."""
     jacobians = np.asarray(_jacobians(system, points))
     return np.linalg.eigvals(jacobians).astype(complex) if np.isfinite(jacobians).all() else None
 

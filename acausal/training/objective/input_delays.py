@@ -107,13 +107,7 @@ class DelayedInputs(eqx.Module):
     def __call__(
         self, steps: Steps, record: Int[Array, "*n"], times: Mapping[str, Float[Array, ""]]
     ) -> Steps:
-        """The same steps with inputs that come later.
-
-        Arguments:
-            steps: of the integration.
-            record: of every step, or of all.
-            times: the delays in seconds, by name.
-        """
+        """The same steps, of one record or each of its own, with inputs that come later, by seconds by name."""
         if not self.columns:
             return steps
         samples, n = steps.inputs, len(steps.t)
