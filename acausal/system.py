@@ -512,7 +512,7 @@ class System(LeavesCaches):
         return at._replace(d=self.initializer.conditions.discrete_start(packed))
 
     def watching(self, names: Iterable[str]) -> System:
-        """The model in which the library's conditions are events, where some of these parameters act through such alone.
+        """The model in which the library's conditions are events, where parameters of these names act through such.
 
         Without events their derivatives would be zero. `acausal.simulate` and `acausal.fit` ask for it where
         derivatives by these parameters are wanted; else the model is simulated as it is, which is faster.

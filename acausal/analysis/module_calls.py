@@ -112,12 +112,7 @@ class Labels:
 
 
 def labels(system: System, module: str, packed: Packed) -> Labels:
-    """What a module takes and gives, by the first equation that calls it.
-
-    Arguments:
-        system: the model.
-        module: name of the module.
-        packed: the model's parameters, of which a factor may be made.
+    """What a module takes and gives, by the first equation that calls it; parameters may give a factor.
 
     Raises:
         ModelError: for a name that is no module of the model.

@@ -34,11 +34,7 @@ class Field:
         return rates(self.program, self.values(x))
 
     def loop_unknowns(self, loops: Sequence[int], x: Float[Array, " n"]) -> Float[Array, " m"]:
-        """The unknowns of some loops at their solution, one loop behind the other.
-
-        Arguments:
-            loops: numbers of instructions that solve algebraic loops. x: states.
-        """
+        """The unknowns of some loops, by their instructions' numbers, at the solution: one behind the other."""
         return jnp.concatenate(
             [jnp.atleast_1d(a) for a in results(self.program, self.values(x), loops)]
         )

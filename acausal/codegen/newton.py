@@ -126,12 +126,7 @@ def root(
     scale: Float[Array, " m"] | float = 1.0,
     max_steps: int = 300,
 ) -> tuple[Float[Array, " m"], Bool[Array, ""]]:
-    """A root near a guess, and whether it was reached.
-
-    Arguments:
-        scale: typical magnitude of the unknowns, (m,) or one for all.
-        max_steps: of Newton's method.
-    """
+    """A root near a guess, and whether it was reached; ``scale`` has the typical magnitudes of the unknowns, or one."""
     unit = jnp.abs(guess) + scale
     units = jnp.append(unit, 1.0)
     first = equations.residual(guess)

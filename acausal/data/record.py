@@ -346,13 +346,7 @@ def _warn_of_celsius(signals: Mapping[str, Float[np.ndarray, " n"]], system: Sys
 
 
 def _warn_of_gaps(ts: Float[np.ndarray, " n"], name: str, interpolation: str) -> None:
-    """Warn once of the gaps of a signal that is used as a function of time; the longest is named.
-
-    Arguments:
-        ts: times of the samples that exist, in seconds.
-        name: of the signal.
-        interpolation: what bridges the gaps.
-    """
+    """Warn once of the gaps of a signal that is used as a function of time, which it bridges; the longest is named."""
     steps = np.diff(ts)
     median = float(np.median(steps)) if len(steps) else 0.0
     count = int(np.count_nonzero(steps > LONG * median))

@@ -66,16 +66,11 @@ def powers(path: str, connectors: Mapping[str, type[Connector]]) -> tuple[Power,
 def energy(
     component: Component, t: Numbers, powers: Numbers, loss: Numbers | None
 ) -> EnergyOverTime:
-    """Energies from the power that a component takes up and, where it is known, the power that it loses.
+    """Energies from the power [W] that a component takes up and, where a variable holds it, the power that it loses.
 
     A component keeps what it takes up where its equations hold a derivative, or where its flow follows from a position;
-    it loses it where its flow follows from a rate, or from a difference that is none of positions.
-
-    Arguments:
-        component: the component.
-        t: times.
-        powers: what enters through all connectors [W]; where ``loss`` is given, without those of heat.
-        loss: what is lost [W], if a variable holds that.
+    it loses it where its flow follows from a rate, or from a difference that is none of positions. Where ``loss`` is
+    given, ``powers`` are without those of heat.
     """
     taken = integrated(t, powers)
     if loss is not None:

@@ -25,17 +25,9 @@ def plot_over_time(
     axes: Sequence[Axes] | None = None,
     steps: Collection[str] = (),
 ) -> Figure:
-    """Plot signals over time, with one diagram for each unit.
+    """Plot signals by name over time [s], with one diagram for each unit; an empty text stands for pure numbers.
 
-    Arguments:
-        time: in seconds.
-        curves: the signals by name.
-        units: their units by name; an empty text for pure numbers.
-        axes: matplotlib axes, one for each unit; by default those of a new figure.
-        steps: the signals that keep each value until the next.
-
-    Returns:
-        The figure.
+    ``steps`` are the signals that keep each value until the next.
 
     Raises:
         DataError: for axes that are not one for each unit, or if there is nothing to plot.
@@ -97,14 +89,9 @@ def plot_variants(
     *,
     ax: Axes | None = None,
 ) -> Figure:
-    """Draw lines over time [s], coloured by a value each, with a colour bar.
+    """Draw the lines of a signal over time [s], coloured by its level in each variant, with a colour bar.
 
-    Arguments:
-        time: in seconds.
-        lines: the signal in all variants.
-        levels: the value that colours each.
-        labels: of the signal and of the values, with their units.
-        ax: matplotlib axes; by default those of a new figure.
+    The labels are those of the signal and of the levels, with their units.
     """
     ax = one_axes(ax, (7.0, 3.5))
     from matplotlib.cm import ScalarMappable

@@ -124,10 +124,7 @@ class Run(NamedTuple):
     def refuse_broken(
         self, x: Float[Array | np.ndarray, "n n_states"], ts: Float[np.ndarray, " n"], name: str
     ) -> None:
-        """Refuse states that are `broken`.
-
-        Arguments:
-            x, ts: states and their times. name: of the method.
+        """Refuse states, at their times, that are `broken` by the method of some name.
 
         Raises:
             SimulationError: for them.

@@ -34,11 +34,7 @@ ROUGH = 0.3
 def long_steps(system: System, values: Values, h: float, limit: float = FAR) -> str | None:
     """A sentence on steps of an explicit solver that are too long somewhere along a trajectory, or None.
 
-    Arguments:
-        system: the model.
-        values: its trajectory, n points; none of them traced.
-        h: the steps' length [s].
-        limit: steps times the rate of a damped mode that are too long.
+    Its n points are not traced; ``limit`` is steps times the rate of a damped mode that are too long.
     """
     damping, t = fastest_mode(system, values)
     if damping * h <= limit:

@@ -69,15 +69,9 @@ def build_problem(
     options: FitOptions,
     streamed: Streamed | None = None,
 ) -> Problem:
-    """The problem of a training.
+    """The problem of a training, from all parameters where it starts and records by name, in the model's units.
 
-    Arguments:
-        system: the model.
-        data: records by name, in the model's units.
-        targets: names of the variables to fit.
-        params: all parameters where training starts.
-        options: how to train.
-        streamed: where these are only the beginnings of the records, all of them.
+    Of a stream these are only the beginnings of the records; ``streamed`` has all of them.
 
     Raises:
         DataError: if the data are not sufficient for the training.

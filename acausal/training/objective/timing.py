@@ -122,15 +122,10 @@ def timing(
 ) -> tuple[Timing, Modifiers]:
     """Check a user's choice; the times, and how those that are trained may move.
 
-    Arguments:
-        delays: by input or target.
-        lags: by target.
-        data: the records; their sample time gives the default limits.
-        inputs: names of the model's inputs.
-        targets: names of what is compared.
+    The sample time of the records gives the default limits.
 
     Raises:
-        TrainingError: for a name that is neither, or a time that is none.
+        TrainingError: for a name that is neither an input nor a target, or a time that is none.
     """
     limit = SAMPLES * float(np.median([np.diff(d.time).mean() for d in data]))
     late, slow = dict(delays or {}), dict(lags or {})
