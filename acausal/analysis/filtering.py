@@ -85,11 +85,7 @@ def by_points(function: Function, belief: Belief) -> Linear:
 
 
 class Linearized(NamedTuple):
-    """The extended and the unscented filter.
-
-    Attributes:
-        line: `by_derivatives` or `by_points`.
-    """
+    """The extended and the unscented filter, whose line is `by_derivatives` or `by_points`."""
 
     line: Callable[[Function, Belief], Linear]
 

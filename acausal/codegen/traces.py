@@ -22,11 +22,7 @@ Function = Callable[[Program, tuple[int, ...], Values], list[Any]]
 
 
 class Fixed:
-    """What is not an array in a pytree, as a part of JAX's keys.
-
-    Attributes:
-        tree: the pytree, with None in the place of arrays.
-    """
+    """What is not an array in a pytree, with None in the place of arrays, as a part of JAX's keys."""
 
     def __init__(self, tree: Any) -> None:
         self.tree = tree

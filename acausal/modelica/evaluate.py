@@ -48,11 +48,7 @@ from acausal.modeling import check_size, floor, time
 
 
 class Evaluator(Operators):
-    """Evaluates the expressions of one statement.
-
-    Attributes:
-        connecting: whether these are ends of a connection.
-    """
+    """Evaluates the expressions of one statement, which may be the ends of a connection."""
 
     connecting = False
 

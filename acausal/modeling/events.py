@@ -31,11 +31,7 @@ INITIAL = sp.Symbol("initial()", real=True)
 
 
 class Previous(Compared):
-    """The value of a variable just before an event; between events its value.
-
-    Attributes:
-        reference: the variable.
-    """
+    """The value of a variable just before an event; between events its value."""
 
     reference: Reference
 

@@ -18,11 +18,7 @@ START = -2.0
 
 
 class Wrapper(eqx.Module):
-    """A network around another one.
-
-    Attributes:
-        net: the network inside.
-    """
+    """A network around another one, ``net``."""
 
     net: Callable[..., Array]
 
@@ -37,11 +33,7 @@ class Odd(Wrapper):
 
 
 class Even(Wrapper):
-    """``½ (F(x, T) + F(−x, T))``: even if all first inputs change sign, and as convex as ``F`` is.
-
-    Attributes:
-        inputs: how many change their sign.
-    """
+    """``½ (F(x, T) + F(−x, T))``: even if all first ``inputs`` change sign, and as convex as ``F`` is."""
 
     inputs: int = eqx.field(static=True, default=1)
 
