@@ -32,10 +32,8 @@ MOST = 4_000
 def batched(function: Flat) -> Flat:
     """The same function; mapped by `jax.vmap`, it is computed for a few instances at a time where that pays.
 
-    It can be differentiated, and its derivatives are mapped as usual.
-
-    Arguments:
-        function: of arrays; returns a list of arrays. It must not close over values that JAX traces.
+    It can be differentiated, and its derivatives are mapped as usual. It takes arrays and returns a list of arrays, and
+    must not close over values that JAX traces.
     """
 
     @custom_vmap

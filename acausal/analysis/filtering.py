@@ -187,12 +187,8 @@ def run(
     """Filter n rows in one scan; it can be differentiated in reverse mode.
 
     Arguments:
-        filter: how.
-        path: the model.
-        start: before the first measurement.
-        measured: of all rows, shapes (n, p).
+        start: before the first measurement. measured: of all rows, shapes (n, p).
         sigma: standard deviations of the noise of every step.
-        key: of random numbers.
         settle: restores what is certain, such as the modes of a model with events.
     """
 

@@ -187,10 +187,8 @@ def _newton(
 
     A step that does not make the residual smaller is halved until it does. For this comparison every equation is
     divided by its partial derivatives, so that units do not matter. Where no part of the step helps, but the step is
-    small, only roundoff is left; otherwise the method is stuck.
-
-    Arguments:
-        linearized: from a point to the residuals, the largest change of each, and the Newton step.
+    small, only roundoff is left; otherwise the method is stuck. ``linearized`` gives, at a point, the residuals, the
+    largest change of each, and the Newton step.
     """
 
     def advance(state: _State) -> _State:
