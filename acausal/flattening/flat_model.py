@@ -86,9 +86,7 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
     ) -> Iterator[EquationGroup]:
         """All equations: those that always hold, conditions, and what variables become at events.
 
-        Arguments:
-            initial: whether those at the initial time are among them.
-            at_events: whether those are by which variables change at events.
+        Those at the initial time are left out, unless they are asked for; those of changes at events may be.
         """
         yield from (*self.groups, *(self.initial if initial else ()))
         yield from (guard.group for guard in self.events.guards)
@@ -99,8 +97,7 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
     def stated_at(self, component: int, origin: object) -> str:
         """Where an equation is stated, and its text, for messages.
 
-        Arguments:
-            component: its number; of connections, -1 minus the number of a variable of a connector.
+        The component of connections is -1 minus the number of a variable of a connector.
         """
         if component < 0:
             return f"{self.layout.variable(-1 - component).rpartition('.')[0]} ({origin})"

@@ -94,8 +94,7 @@ def shorten(names: Iterable[str]) -> dict[str, Short]:
 def with_owners(paths: Iterable[str]) -> Callable[[str], Short]:
     """How names are written that always say whose they are: ``heatPort.T`` is T with the index heatPort.
 
-    Arguments:
-        paths: names that are written together; what would look like others, beside ``T_heatPort``, is spelled out.
+    Of names that are written together, what would look like others, beside ``T_heatPort``, is spelled out.
     """
     looks = sorted((_with_owner(path), path) for path in paths)
     alike = {p for (a, one), (b, other) in pairwise(looks) if a == b for p in (one, other)}

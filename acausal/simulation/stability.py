@@ -62,8 +62,7 @@ def is_rough(x: Float[np.ndarray, "n n_states"]) -> bool:
 def fastest_mode(system: System, values: Values) -> tuple[float, float]:
     """The rate of the fastest damped mode along a trajectory [1/s], and when [s]; 0 for what is not examined.
 
-    Arguments:
-        values: the trajectory, n points, with the same discrete variables at all of them; none of them traced.
+    Discrete variables are the same at all of its n points, none of which is traced.
     """
     if not 0 < len(system.states) <= LARGEST:
         return 0.0, 0.0

@@ -98,8 +98,7 @@ def _kept(
 ) -> tuple[Trained, ...]:
     """Train here with a checkpoint, from which this goes on if there is one.
 
-    Arguments:
-        differs: the seeds and starts by which the checkpoint knows its training.
+    The checkpoint knows its training by the seeds and starts in which this ``differs`` from others.
     """
     identity: dict[str, str] = {}
     if path is not None:

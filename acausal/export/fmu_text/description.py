@@ -164,11 +164,7 @@ class ModelDescription:
 
 
 def _add_units(root: Element, units: Iterable[str]) -> None:
-    """Append the definitions of units, in base units where these are known.
-
-    Arguments:
-        units: texts of units; those that are empty have no definition.
-    """
+    """Append the definitions of units, in base units where these are known; empty texts have no definition."""
     named = sorted({u for u in units if u})
     if not named:
         return

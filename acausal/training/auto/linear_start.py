@@ -147,9 +147,6 @@ def with_constants_at_zero(
     A current through a coil whose start is not measured does for a constant of the current beside it, and a force of
     one law for that of another one. So the constant is known less well than the law is large, and without it the loss
     and the starts are as good as with it. Laws of several inputs, at which zero says little, keep theirs.
-
-    Arguments:
-        start: from `linear_start`. shapes: as there. scales: of the laws, by network.
     """
     given, objective, held, loose = start, start.problem, list[int](), list[str]()
     places = _places(objective, shapes)
