@@ -5,7 +5,6 @@ It does not know the classes of results, whose methods such as `Fit.report` call
 with the attributes of a small protocol.
 """
 
-from acausal.reporting.axes import one_axes as one_axes
 from acausal.reporting.document.builder import Page as Page, write_json as write_json
 from acausal.reporting.document.content import (
     Animation as Animation,
@@ -58,6 +57,7 @@ from acausal.reporting.plot import (
     TRUTH as TRUTH,
     InputStatistics as InputStatistics,
     UncertainCurve as UncertainCurve,
+    one_axes as one_axes,
     plot_band as plot_band,
     plot_learned as plot_learned,
 )

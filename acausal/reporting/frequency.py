@@ -10,8 +10,7 @@ import numpy as np
 from jaxtyping import Complex, Float
 from numpy.typing import ArrayLike
 
-from acausal.reporting.axes import one_axes, several_axes
-from acausal.reporting.plot import GUIDE, LEARNED
+from acausal.reporting.plot import GUIDE, LEARNED, one_axes, several_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,8 +9,14 @@ from jaxtyping import Float
 from numpy import isnan, ndarray
 
 from acausal.errors import DataError, listing
-from acausal.reporting.axes import new_axes, one_axes, several_axes
-from acausal.reporting.plot import TRUTH, UncertainCurve, plot_band
+from acausal.reporting.plot import (
+    TRUTH,
+    UncertainCurve,
+    new_axes,
+    one_axes,
+    plot_band,
+    several_axes,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
