@@ -52,10 +52,7 @@ def target(system: System, module: str) -> int:
 
 
 def calls(system: System, *modules: str, at_events: bool = False) -> tuple[Calls, ...]:
-    """Every call of some modules, in order of the equations.
-
-    Arguments:
-        at_events: whether those count, too, by which variables change at events.
+    """Every call of some modules, in order of the equations; perhaps with those that change variables ``at_events``.
 
     Raises:
         ModelError: for a name that is no module of the model.

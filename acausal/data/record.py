@@ -204,9 +204,7 @@ class Data(ByName, Formats):
     def signal(self, name: str, interpolation: Interpolation = "linear") -> Signal:
         """A signal as a function of time, through the samples that exist; a long gap among them gives a warning.
 
-        Arguments:
-            name: of the signal.
-            interpolation: for a signal for which the record has no choice.
+        The interpolation is for a signal for which the record has no choice.
         """
         ts, values = self.samples(name)
         kind: Interpolation = chosen(self.interpolation, name, interpolation)

@@ -38,15 +38,9 @@ def plots_by_unit(
     steps: Collection[str] = (),
     sigma: Mapping[str, Numbers] | None = None,
 ) -> list[Plot]:
-    """Variables of one run, those of one unit in one plot.
+    """Variables of one run, by label with units, those of one unit in one plot of a group with about ``most`` points.
 
-    Arguments:
-        t: times. columns: by label.
-        units: by label.
-        group: of the plots.
-        most: points in a plot.
-        steps: the labels of what keeps each value until the next.
-        sigma: standard deviations by label, where they are known.
+    Those of ``steps`` keep each value until the next; ``sigma`` has the standard deviations that are known.
     """
     known = sigma or {}
     found: dict[str, list[str]] = {}

@@ -64,11 +64,7 @@ def plot_predictions(
     predicted: Mapping[str, UncertainCurve],
     units: Mapping[str, str],
 ) -> Figure:
-    """Plot signals as measured (NaN where they are not) and as predicted with bands, one below another.
-
-    Returns:
-        The figure.
-    """
+    """Plot signals as measured (NaN where they are not) and as predicted with bands, one below another."""
     axes = new_axes((7.0, 1.0 + 2.0 * len(predicted)), len(predicted))
     for ax, (name, band), column in zip(axes, predicted.items(), measured.T, strict=True):
         if not isnan(column).all():

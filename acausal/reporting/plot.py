@@ -21,10 +21,7 @@ if TYPE_CHECKING:
 
 
 def new_axes(size: tuple[float, float], rows: int = 1) -> list[Axes]:
-    """Axes one below another, with one time axis, in a figure that notebooks and windows show, once.
-
-    Arguments:
-        size: width and height of the figure, in inches.
+    """Axes one below another, with one time axis, in a figure, of a size in inches, that notebooks show once.
 
     Raises:
         AcausalError: if matplotlib is not installed.
