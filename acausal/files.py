@@ -9,7 +9,9 @@ import csv
 import errno
 import glob
 import io
+import json
 import logging
+import math
 import os
 import platform
 import secrets
@@ -276,6 +278,20 @@ def _sync(folder: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def json_text(content: object, indent: int | None = None) -> str:
+    """JSON, in which numbers that are not finite are null."""
+    return json.dumps(finite(content), indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def finite(value: Any) -> Any:
+    """The same with None for numbers that JSON does not know."""
+    if isinstance(value, Mapping):
+        return {str(name): finite(inner) for name, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite(inner) for inner in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def csv_text(columns: Mapping[str, Any]) -> str:

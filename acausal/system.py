@@ -54,7 +54,16 @@ from acausal.flattening import (
 )
 from acausal.initialization import Initialization, Initializer, initializer, overview
 from acausal.jobs import collection_paused
-from acausal.modeling import Budget, Component, Discrete, Input, Name, Option, names_in
+from acausal.modeling import (
+    Budget,
+    Component,
+    Discrete,
+    Input,
+    Name,
+    Option,
+    antiderivatives,
+    names_in,
+)
 from acausal.structure import ReducedModel, reduce, with_loop_guesses
 from acausal.units import check_dimensions
 
@@ -512,13 +521,10 @@ class System(LeavesCaches):
         return at._replace(d=self.initializer.conditions.discrete_start(packed))
 
     def watching(self, names: Iterable[str]) -> System:
-        """The model in which the library's conditions are events, where some parameters act through such alone.
+        """The model in which the library's conditions are events, where parameters of these names act through such.
 
         Without events their derivatives would be zero. `acausal.simulate` and `acausal.fit` ask for it where
         derivatives by these parameters are wanted; else the model is simulated as it is, which is faster.
-
-        Arguments:
-            names: of parameters.
         """
         silent = self.flat.silent
         return self._watched if any(n in silent and silent[n].asked for n in names) else self
@@ -625,9 +631,7 @@ class System(LeavesCaches):
 
     def _find(self, name: str) -> tuple[int, int]:
         """Node and sign of a variable or a known derivative."""
-        inner, order = name, 0
-        while inner.startswith("der(") and inner.endswith(")"):
-            inner, order = inner[4:-1], order + 1
+        *derivatives, inner = antiderivatives(name)
         index = self.flat.layout.find_variable(inner)
         if index is None:
             hint = nearest(inner, self.variables)
@@ -636,7 +640,7 @@ class System(LeavesCaches):
                     f"elements are counted from 1, as in Modelica: '{inner.replace('[0]', '[1]')}'?"
                 )
             raise ModelError(f"the model has no variable '{inner}'; {hint}")
-        found = self.reduced.resolve_derivative(index, order)
+        found = self.reduced.resolve_derivative(index, len(derivatives))
         if found is None:
             raise ModelError(f"the model does not differentiate '{name.removeprefix('der(')[:-1]}'")
         return found

@@ -1,4 +1,3 @@
-from .at_import import configure_with_jax as configure_with_jax
 from .compilation_cache import use_compilation_cache as use_compilation_cache
 from .damped_steps import (
     Damped as Damped,
@@ -41,7 +40,10 @@ from .programs import (
 )
 from .reverse import room as room, with_steps as with_steps
 from .scan import Restarts as Restarts, stored_scan as stored_scan
-from .settings import configure as configure, need_double_precision as need_double_precision
+from .settings import (
+    configure_with_jax as configure_with_jax,
+    need_double_precision as need_double_precision,
+)
 from .side_by_side import (
     cond_any as cond_any,
     either as either,

@@ -32,10 +32,8 @@ MOST = 4_000
 def batched(function: Flat) -> Flat:
     """The same function; mapped by `jax.vmap`, it is computed for a few instances at a time where that pays.
 
-    It can be differentiated, and its derivatives are mapped as usual.
-
-    Arguments:
-        function: of arrays; returns a list of arrays. It must not close over values that JAX traces.
+    It can be differentiated, and its derivatives are mapped as usual. It takes arrays and returns a list of arrays, and
+    must not close over values that JAX traces.
     """
 
     @custom_vmap
@@ -97,12 +95,7 @@ def _in_groups(
 
 
 def is_small(jaxpr: Jaxpr, in_loop: bool = False) -> bool:
-    """Whether XLA will compile the loops of a jaxpr as a whole.
-
-    Arguments:
-        jaxpr: what to look at.
-        in_loop: whether all of it is part of a loop.
-    """
+    """Whether XLA will compile the loops of a jaxpr, which may be part of a loop itself, as a whole."""
     equations = list(primitives.all_equations(jaxpr, in_loop))
     return (
         len(equations) <= MOST

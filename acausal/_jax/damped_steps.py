@@ -68,11 +68,7 @@ class LocalModel(Protocol):
 
 
 class Quadratic(eqx.Module):
-    """A model with a matrix; its scale is the largest entry of the diagonal.
-
-    Attributes:
-        gradient, hessian: at the point.
-    """
+    """A model at a point, with a matrix; its scale is the largest entry of the diagonal."""
 
     gradient: Float[Array, " n"]
     hessian: Float[Array, "n n"]

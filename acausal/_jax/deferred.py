@@ -16,14 +16,11 @@ Function = Callable[..., Sequence[Array]]
 
 
 def deferred(function: Function, like: Sequence[Any]) -> Callable[..., list[Array]]:
-    """The same function, as one operation of a program until that is compiled.
+    """The same function of pytrees of arrays, as one operation of a program until that is compiled.
 
     JAX traces both a linear function and its transpose, and maps both, whichever of them a program calls in the end.
-    Of a long function this takes many seconds.
-
-    Arguments:
-        function: of pytrees of arrays. It must not close over values that JAX traces; it has no derivatives.
-        like: arrays, or `jax.ShapeDtypeStruct`, with the shapes and types of its results.
+    Of a long function this takes many seconds. It must not close over values that JAX traces, and has no derivatives;
+    its results have the shapes and types of ``like``.
     """
     shapes = tuple(jax.ShapeDtypeStruct(a.shape, a.dtype) for a in like)
 

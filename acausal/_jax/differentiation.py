@@ -25,14 +25,10 @@ Linear = Callable[[list[Array]], list[Array]]
 def two_modes(
     reverse: Callable[[PyTree], Result], forward: Callable[[PyTree], Result]
 ) -> Callable[[PyTree], Result]:
-    """A function that JAX differentiates in both modes, where no single implementation allows it.
+    """A function of a pytree that JAX differentiates in both modes, where no single implementation allows it.
 
     Derivatives in reverse mode cost what those of ``reverse`` cost. Those in forward mode cost an evaluation of
-    ``reverse`` besides those of ``forward``. There are no second derivatives.
-
-    Arguments:
-        reverse: of a pytree of arrays; can be differentiated in reverse mode.
-        forward: the same function; can be differentiated in forward mode.
+    ``reverse`` besides those of ``forward``, the same function. There are no second derivatives.
     """
 
     @jax.custom_jvp

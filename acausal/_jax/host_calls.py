@@ -94,11 +94,7 @@ def register_host(call: Call) -> int:
 
 
 def call_host(number: int, given: Float[Array, " n"], shape: tuple[int, ...]) -> Array:
-    """The numbers that a registered function gives, in that shape; NaN where it fails.
-
-    Arguments:
-        number: of the function. given: what it takes. shape: of what it gives.
-    """
+    """The numbers that a registered function gives for what it takes, in that shape; NaN where it fails."""
     like = jax.ShapeDtypeStruct(shape, given.dtype)
     first = jnp.full((1,), number, given.dtype)
     return jax.ffi.ffi_call(NAME, like, vmap_method="broadcast_all")(

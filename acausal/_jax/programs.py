@@ -44,8 +44,7 @@ _programs: OrderedDict[tuple[Any, ...], KeptProgram] = OrderedDict()
 def compiled(function: Callable[P, Result]) -> Callable[P, Result]:
     """The function, compiled by `jax.jit`: arrays are traced, and what else there is in its arguments is constant.
 
-    Arguments:
-        function: pure, of pytrees whose other leaves can be hashed; its result consists of arrays.
+    That can be hashed; the function is pure, and its result consists of arrays.
     """
 
     @wraps(function)

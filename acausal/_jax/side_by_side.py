@@ -50,9 +50,7 @@ def one_by_one(function: Callable[..., State]) -> Callable[..., State]:
     """The same function; mapped by `jax.vmap`, its instances are computed one after the other where that is faster.
 
     It is where XLA compiles the loops of an instance as a whole, and instances need not wait for each other in them.
-
-    Arguments:
-        function: of pytrees of arrays. It must not close over values that JAX traces.
+    The function is one of pytrees of arrays, and must not close over values that JAX traces.
     """
     if not compiles_small_loops():
         return function

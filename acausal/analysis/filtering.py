@@ -85,11 +85,7 @@ def by_points(function: Function, belief: Belief) -> Linear:
 
 
 class Linearized(NamedTuple):
-    """The extended and the unscented filter.
-
-    Attributes:
-        line: `by_derivatives` or `by_points`.
-    """
+    """The extended and the unscented filter, whose line is `by_derivatives` or `by_points`."""
 
     line: Callable[[Function, Belief], Linear]
 
@@ -191,12 +187,8 @@ def run(
     """Filter n rows in one scan; it can be differentiated in reverse mode.
 
     Arguments:
-        filter: how.
-        path: the model.
-        start: before the first measurement.
-        measured: of all rows, shapes (n, p).
+        start: before the first measurement. measured: of all rows, shapes (n, p).
         sigma: standard deviations of the noise of every step.
-        key: of random numbers.
         settle: restores what is certain, such as the modes of a model with events.
     """
 

@@ -52,10 +52,7 @@ def target(system: System, module: str) -> int:
 
 
 def calls(system: System, *modules: str, at_events: bool = False) -> tuple[Calls, ...]:
-    """Every call of some modules, in order of the equations.
-
-    Arguments:
-        at_events: whether those count, too, by which variables change at events.
+    """Every call of some modules, in order of the equations; perhaps with those that change variables ``at_events``.
 
     Raises:
         ModelError: for a name that is no module of the model.
@@ -79,11 +76,7 @@ def _stated(system: System, at_events: bool) -> Iterator[tuple[EquationGroup, An
 
     Each is given by its group, the call, and the module that each row calls.
     """
-    flat, events = system.flat, system.flat.events
-    conditions = (guard.group for guard in events.guards)
-    changes = (*events.updates, *events.jumps) if at_events else ()
-    given = (stated.as_equation("value") for stated in changes)
-    for group in (*flat.groups, *conditions, *given):
+    for group in system.flat.equations(at_events=at_events):
         if group.template.modules:
             for call in sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key):
                 slot = group.template.modules.index(call.args[0])
@@ -116,12 +109,7 @@ class Labels:
 
 
 def labels(system: System, module: str, packed: Packed) -> Labels:
-    """What a module takes and gives, by the first equation that calls it.
-
-    Arguments:
-        system: the model.
-        module: name of the module.
-        packed: the model's parameters, of which a factor may be made.
+    """What a module takes and gives, by the first equation that calls it; parameters may give a factor.
 
     Raises:
         ModelError: for a name that is no module of the model.

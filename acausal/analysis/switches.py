@@ -19,7 +19,7 @@ def in_switches(system: System) -> set[str]:
     """The parameters and networks that decide a case (``where``, ``if``) or stand in a function with steps."""
     flat, layout = system.flat, system.flat.layout
     parameters, modules = set[int](), set[int]()
-    for group in (*flat.groups, *flat.initial, *(stated.group for stated in flat.events.all)):
+    for group in flat.equations(initial=True):
         switches = group.template.residual.atoms(Relational, *STEPS)
         deciding = set[sp.Basic]().union(*(s.free_symbols for s in switches))
         for slots, rows, found in (

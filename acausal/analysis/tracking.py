@@ -209,13 +209,10 @@ def make_model(
 
 
 def check_model(system: System, what: str, *, events: bool) -> None:
-    """Refuse a model that cannot be followed.
-
-    Arguments:
-        what: is asked for. events: whether that follows events.
+    """Refuse a model that ``what`` cannot follow: one without states, or with events that it does not follow.
 
     Raises:
-        ModelError: for a model without states, or with events where these are not followed.
+        ModelError: for such a model.
     """
     if system.events is not None and not events:
         raise ModelError(

@@ -6,7 +6,6 @@ It knows nothing of initial values, time integration or data.
 
 from acausal.codegen.equation_formula import formula_of as formula_of
 from acausal.codegen.equations import explicit_equations as explicit_equations
-from acausal.codegen.field import Field as Field
 from acausal.codegen.gather import Gather as Gather
 from acausal.codegen.generator import generate as generate
 from acausal.codegen.instructions import (
@@ -61,6 +60,6 @@ from acausal.codegen.reading import (
     read_elements as read_elements,
     read_parameters as read_parameters,
 )
-from acausal.codegen.state_jacobian import StateJacobian as StateJacobian
+from acausal.codegen.state_jacobian import Field as Field, StateJacobian as StateJacobian
 from acausal.codegen.unlike_formulas import join_formulas as join_formulas
 from acausal.codegen.values import Packed as Packed, Values as Values

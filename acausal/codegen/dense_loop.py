@@ -1,4 +1,7 @@
-"""Solve algebraic loops with JAX: torn blocks of one shape, side by side."""
+"""Solve algebraic loops with JAX: torn blocks of one shape, side by side.
+
+Linear blocks are solved directly, nonlinear ones by Newton's method, with derivatives by the implicit function theorem.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +12,74 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
+from jaxtyping import Array, Float
 
-from acausal.codegen.dense import nearest, solve_linear, solve_nonlinear
+from acausal._jax import value_and_jacobian
+from acausal.codegen.elimination import eliminate
 from acausal.codegen.instructions import ArrayFormula, SolveTornLoop
 from acausal.codegen.lower import ModuleValue
+from acausal.codegen.newton import Dense, Residual, root
 from acausal.codegen.reading import Arrays, compute, fill, read_elements
 from acausal.codegen.values import Packed, Values
 from acausal.modeling import time
+
+FEW = 12
+"""The most unknowns that are eliminated in array operations; more take XLA too long to compile."""
+
+Block = Callable[[Array], tuple[Array, Array]]
+"""From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
+
+
+def solve_block(
+    block: Block,
+    guess: Float[Array, " m"],
+    scale: Float[Array, " m"] | float = 1.0,
+    *,
+    is_linear: bool = False,
+) -> Float[Array, " n"]:
+    """Unknowns of a block near a guess; NaN where Newton's method does not converge.
+
+    Of a block that is affine in its tearing variables, the guess gives only their number.
+    """
+
+    def solve(residual: Residual, start: Array) -> Array:
+        if is_linear:
+            r, jacobian = value_and_jacobian(residual, start, axis=-1)
+            return -_solve(jacobian, r)
+        found, converged = root(Dense(residual, _solve), start, scale)
+        return jnp.where(converged, found, jnp.nan)
+
+    start = jnp.zeros_like(guess) if is_linear else guess
+    return block(jax.lax.custom_root(lambda z: block(z)[1], start, solve, _tangent))[0]
+
+
+def nearest(
+    block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
+) -> Float[Array, " m"]:
+    """Tearing variables where the search for a root of a nonlinear block ends, whether or not they are a root."""
+    return root(Dense(lambda tears: block(tears)[1], _solve), guess, scale)[0]
+
+
+def _tangent(linear: Residual, y: Float[Array, " m"]) -> Float[Array, " m"]:
+    """Where a linear function is ``y``: its derivatives are those of a root, by the implicit function theorem."""
+    return _solve(jax.jacfwd(linear)(jnp.zeros_like(y)), y)
+
+
+def _solve(a: Float[Array, "m m"], b: Float[Array, " m"]) -> Float[Array, " m"]:
+    """``a^-1 b``; spelled out for the small sizes where a library call costs more than the arithmetic."""
+    match a.shape[0]:
+        case 1:
+            return b / a[0]
+        case 2:
+            determinant = a[0, 0] * a[1, 1] - a[0, 1] * a[1, 0]
+            first = a[1, 1] * b[0] - a[0, 1] * b[1]
+            second = a[0, 0] * b[1] - a[1, 0] * b[0]
+            return jnp.stack([first, second]) / determinant
+        case n if n <= FEW:
+            return eliminate(a, b)
+        case _:
+            return jnp.linalg.solve(a, b)
+
 
 Known = Sequence[Any]
 """What the loops read: the values of their arguments, in order."""
@@ -26,10 +89,10 @@ NOTHING: Any = np.zeros(0)
 
 def solve_torn_loops(loop: SolveTornLoop, values: Values, arrays: Arrays) -> list[Array]:
     """The unknowns, one array each over the loops."""
-    solve = solve_linear if loop.is_linear else solve_nonlinear
 
     def one(t: Any, known: Known, guess: Array, scale: Array) -> Array:
-        return solve(lambda tears: _torn(loop, tears, t, known), guess, scale)
+        block = lambda tears: _torn(loop, tears, t, known)  # noqa: E731
+        return solve_block(block, guess, scale, is_linear=loop.is_linear)
 
     scale = jnp.asarray(loop.scale, values.x.dtype)
     return _for_each(loop, values, arrays, one, _guess(loop, values, arrays), scale)

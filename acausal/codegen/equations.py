@@ -38,11 +38,7 @@ SlotExpressions = dict[sp.Symbol, sp.Expr]
 def explicit_equations(
     program: Program, parameters: ParameterLayout, name: Callable[[int], str]
 ) -> tuple[sp.Equality, ...]:
-    """``der(state) = ...`` for every state, in order, then the equations of loops left implicit.
-
-    Arguments:
-        name: of a node.
-    """
+    """``der(state) = ...`` for every state, in order, then the equations of loops left implicit; nodes have names."""
     if program.state_rates is None:
         return ()
     writer = _Writer(program, parameters, name)

@@ -77,8 +77,7 @@ def rates_and_residuals(
 ) -> tuple[Float[Array, " n_states"], list[Array]]:
     """Derivatives of the states where the unknowns of some loops are given, and residuals of the loops' equations.
 
-    Arguments:
-        given: the unknowns, array by array, by the number of the instruction that solves for them otherwise.
+    The unknowns are given array by array, by the number of the instruction that solves for them otherwise.
     """
     arrays = _known(program, values)
     residuals: list[Array] = []

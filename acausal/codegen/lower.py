@@ -126,7 +126,8 @@ def _number(node: Any, visit: Visit) -> Any:
 
 def _sum(node: sp.Add, visit: Visit) -> Any:
     total: Any = None
-    for term in _positive_first(node.args):
+    terms: list[Any] = list(node.args)
+    for term in sorted(terms, key=lambda t: bool(t.could_extract_minus_sign())):  # positive first
         negative = term.could_extract_minus_sign() and (term.is_Number or term.is_Mul)
         value = visit(-term if negative else term)
         if total is None:
@@ -134,10 +135,6 @@ def _sum(node: sp.Add, visit: Visit) -> Any:
             continue
         total = total - value if negative else total + value
     return total
-
-
-def _positive_first(terms: tuple[sp.Basic, ...]) -> list[Any]:
-    return sorted(terms, key=lambda t: bool(t.could_extract_minus_sign()))
 
 
 def _product(node: Any, visit: Visit) -> Any:

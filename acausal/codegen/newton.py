@@ -126,12 +126,7 @@ def root(
     scale: Float[Array, " m"] | float = 1.0,
     max_steps: int = 300,
 ) -> tuple[Float[Array, " m"], Bool[Array, ""]]:
-    """A root near a guess, and whether it was reached.
-
-    Arguments:
-        scale: typical magnitude of the unknowns, (m,) or one for all.
-        max_steps: of Newton's method.
-    """
+    """A root near a guess, and whether it was reached; ``scale`` has the typical magnitudes of the unknowns, or one."""
     unit = jnp.abs(guess) + scale
     units = jnp.append(unit, 1.0)
     first = equations.residual(guess)
@@ -192,10 +187,8 @@ def _newton(
 
     A step that does not make the residual smaller is halved until it does. For this comparison every equation is
     divided by its partial derivatives, so that units do not matter. Where no part of the step helps, but the step is
-    small, only roundoff is left; otherwise the method is stuck.
-
-    Arguments:
-        linearized: from a point to the residuals, the largest change of each, and the Newton step.
+    small, only roundoff is left; otherwise the method is stuck. ``linearized`` gives, at a point, the residuals, the
+    largest change of each, and the Newton step.
     """
 
     def advance(state: _State) -> _State:

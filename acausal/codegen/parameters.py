@@ -97,10 +97,9 @@ class ParameterLayout(LeavesCaches):
         return float(low[i]), float(high[i])
 
     def out_of_range(self, values: np.ndarray) -> str | None:
-        """A clause on values outside of the ranges that are declared, or None; the model's own count as inside.
+        """A clause on values of the free parameters, nan where one is not known, outside of their declared ranges.
 
-        Arguments:
-            values: of the free parameters, in order; nan where one is not known.
+        None if there are none; the model's own count as inside.
         """
         low, high = self._ranges
         outside = ((values < low) | (values > high)) & (values != self.model.value[self.free])

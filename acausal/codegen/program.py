@@ -126,11 +126,7 @@ class Program(LeavesCaches):
 
 
 def described(program: Program, number: int, name: Callable[[int], str]) -> str:
-    """The variables that an instruction gives, and their formula.
-
-    Arguments:
-        number: of the instruction. name: of a node.
-    """
+    """The variables that an instruction gives, by the names of nodes, and their formula."""
     instruction, first = program.instructions[number], program.first[number]
     rows = program.nodes[first : first + instruction.outputs]
     names = [_all(name, row) for row in rows]

@@ -33,11 +33,7 @@ def read_elements(gather: Gather, arrays: Arrays) -> Array:
 def fill(
     arguments: Arguments, packed: Packed, arrays: Arrays = (), t: ArrayLike = 0.0
 ) -> dict[sp.Symbol, Any]:
-    """The values in the slots of a formula.
-
-    Arguments:
-        packed: parameters. arrays: those that its variables are read in. t: time [s].
-    """
+    """The values in the slots of a formula, from parameters, the arrays that its variables are read in, and time."""
     filled: dict[sp.Symbol, Any] = {time: t}
     filled |= {symbol: read_elements(g, arrays) for symbol, g in arguments.variables}
     filled |= {symbol: read_parameters(g, packed) for symbol, g in arguments.parameters}
@@ -56,11 +52,7 @@ def compute(
     t: ArrayLike = 0.0,
     initial: ArrayLike = 0.0,
 ) -> Array:
-    """The value of a formula, shape (size,); a scalar for one instance.
-
-    Arguments:
-        packed, arrays, t: as for `fill`. initial: 1 while initial values are being found.
-    """
+    """The value of a formula, shape (size,), or a scalar; ``initial`` is 1 while initial values are being found."""
     filled = {**fill(formula.arguments, packed, arrays, t), INITIAL: initial}
     value = jnp.asarray(evaluate(formula.expression, filled))
     return value if formula.size == 1 else jnp.broadcast_to(value, (formula.size,))

@@ -42,11 +42,7 @@ class SparseMatrix:
     def solve(
         self, entries: Float[Array, " nnz"], b: Float[Array, " n"], *, transposed: bool = False
     ) -> Float[Array, " n"]:
-        """``x`` with ``A x = b``, or ``A^T x = b``, differentiable by both; NaN where the matrix is singular.
-
-        Arguments:
-            entries: values of the entries, shape (nnz,). b: right side, shape (n,).
-        """
+        """``x`` with ``A x = b``, or ``A^T x = b``, differentiable by entries of A and b; NaN where it is singular."""
 
         def solve(other: bool) -> Callable[[Any, Array], Array]:
             return lambda _, b: self._on_host(transposed != other, entries, b)

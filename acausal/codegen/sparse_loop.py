@@ -28,7 +28,8 @@ def solve_sparse_loop(loop: SolveSparseLoop, values: Values, arrays: Arrays) -> 
     guess, scale = jnp.asarray(loop.guess, dtype), jnp.asarray(loop.scale, dtype)
     if loop.is_linear:
         at_origin = _equations(replace(loop, formulas=loop.at_origin), values, arrays)
-        return [_linear(at_origin, jnp.zeros_like(guess))]
+        origin = jnp.zeros_like(guess)
+        return [at_origin.matrix.solve(at_origin.entries(origin), -at_origin.residual(origin))]
     return [_nonlinear(_equations(loop, values, arrays), guess, scale)]
 
 
@@ -115,10 +116,6 @@ class _Sparse:
 
 _Functions = tuple[Callable[[Array], Array], Callable[[Array], Array]]
 """Residuals and entries of the Jacobian, as pytrees of all values that they read."""
-
-
-def _linear(equations: _Sparse, origin: Array) -> Array:
-    return equations.matrix.solve(equations.entries(origin), -equations.residual(origin))
 
 
 def _nonlinear(equations: _Sparse, guess: Array, scale: Array) -> Array:

@@ -22,11 +22,7 @@ Function = Callable[[Program, tuple[int, ...], Values], list[Any]]
 
 
 class Fixed:
-    """What is not an array in a pytree, as a part of JAX's keys.
-
-    Attributes:
-        tree: the pytree, with None in the place of arrays.
-    """
+    """What is not an array in a pytree, with None in the place of arrays, as a part of JAX's keys."""
 
     def __init__(self, tree: Any) -> None:
         self.tree = tree
@@ -48,10 +44,8 @@ def is_array(leaf: object) -> bool:
 def with_kept_traces(function: Function) -> Function:
     """The same function; where JAX traces, it is traced once for a program, what is wanted of it, and kinds of values.
 
-    Where values are known, or what is not an array in them cannot be compared with earlier ones, nothing is kept.
-
-    Arguments:
-        function: what some arrays of a program are, by the program, their numbers, and the values.
+    Where values are known, or what is not an array in them cannot be compared with earlier ones, nothing is kept. The
+    function gives some arrays of a program, by the program, their numbers, and the values.
     """
 
     def call(program: Program, wanted: tuple[int, ...], values: Values) -> list[Any]:

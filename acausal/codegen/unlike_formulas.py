@@ -56,11 +56,9 @@ def join_formulas(
 def together(
     formulas: Sequence[ArrayFormula], sizes: Sequence[int], n_parameters: int
 ) -> UnlikeFormulas:
-    """The formulas as one instruction, whose results lie one behind the other.
+    """The formulas, which are `joinable`, as one instruction, whose results lie one behind the other.
 
-    Arguments:
-        formulas: those that are `joinable`; none reads another's result.
-        sizes: lengths of the arrays before them. n_parameters: of `Packed.values`.
+    None of them reads another's result. ``sizes`` are the lengths of the arrays before them.
     """
     levels = _Levels(sizes, n_parameters)
     values = [levels.value(formula) for formula in formulas]

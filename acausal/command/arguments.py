@@ -1,4 +1,4 @@
-"""Arguments that several commands share, and how their texts are read."""
+"""Arguments that several commands share, how their texts are read, and the records from files that they name."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ from argparse import (
     ArgumentTypeError,
     Namespace,
     RawDescriptionHelpFormatter,
-    _SubParsersAction,  # pyright: ignore[reportPrivateUsage] (argparse has no public name for it)
+    _ActionsContainer,  # pyright: ignore[reportPrivateUsage] (argparse has no public names for these)
+    _SubParsersAction,  # pyright: ignore[reportPrivateUsage]
 )
 from collections.abc import Callable
+from functools import partial
 from glob import iglob
 from pathlib import Path
 from textwrap import dedent, fill
@@ -20,6 +22,7 @@ from typing import Any, TypeAlias
 
 import acausal as ac
 from acausal.command.output import CommandOutput
+from acausal.errors import shown
 
 Parsers: TypeAlias = "_SubParsersAction[ArgumentParser]"
 Run: TypeAlias = Callable[[Namespace, CommandOutput], int | None]
@@ -53,7 +56,7 @@ def add_command(
 
 
 def add_by_name(
-    parser: ArgumentParser,
+    parser: _ActionsContainer,
     *flags: str,
     text: str,
     read: Callable[[str], tuple[str, Any]],
@@ -83,7 +86,8 @@ def add_model(parser: ArgumentParser, several: str | None = None) -> None:
     words = "parts of the model's file may run native code, FMUs; only for files from people whom you trust"
     parser.add_argument("--allow-native", action="store_true", help=words)
     words = "another part in the place of one, such as suspension.damper=neural.Resistance"
-    add_by_name(parser, "--replace", text=words, read=text_by_name, metavar="PART=CLASS")
+    read = partial(text_by_name, form="PART=CLASS")
+    add_by_name(parser, "--replace", text=words, read=read, metavar="PART=CLASS")
 
 
 READ = ("model", "data", "training", "inputs", "params", "options")
@@ -122,15 +126,15 @@ def add_parameters(parser: ArgumentParser) -> None:
     add_by_name(parser, "--set", text=words, read=number_by_name)
 
 
-def text_by_name(text: str) -> tuple[str, str]:
+def text_by_name(text: str, form: str = "NAME=VALUE") -> tuple[str, str]:
     """``damper=neural.Resistance`` as a name and a text.
 
     Raises:
-        ArgumentTypeError: for a text without a name and an equals sign.
+        ArgumentTypeError: for a text without a name, an equals sign, or what follows it.
     """
-    name, equals, value = text.partition("=")
-    if not name or not equals:
-        raise ArgumentTypeError(f"'{text}' is not NAME=VALUE")
+    name, _, value = text.partition("=")
+    if not name or not value:
+        raise ArgumentTypeError(f"'{text}' is not {form}")
     return name, value
 
 
@@ -161,3 +165,49 @@ def value_by_name(text: str) -> tuple[str, Any]:
         return name, json.loads(value)
     except json.JSONDecodeError:
         return name, value
+
+
+def add_reading(parser: ArgumentParser) -> None:
+    """How files of data are read."""
+    group = parser.add_argument_group("how data are read")
+    group.add_argument("--time", metavar="COLUMN", help="the column with the times ('time')")
+    group.add_argument(
+        "--group", metavar="COLUMN", help="the column that says which run a row belongs to"
+    )
+    group.add_argument("--columns", nargs="+", metavar="NAME", help="read these columns alone")
+    words = "the model's variable that a column is, such as 'ch 7=mass.a'"
+    read = partial(text_by_name, form="COLUMN=NAME")
+    add_by_name(group, "--rename", text=words, read=read, metavar="COLUMN=NAME")
+    group.add_argument(
+        "--missing",
+        choices=("refuse", "nan"),
+        default="refuse",
+        help="whether an empty cell is a mistake (refuse) or a missing sample (nan)",
+    )
+
+
+def read_records(paths: list[str], args: Namespace) -> ac.Data | dict[str, ac.Data]:
+    """One record, or several by the names of their files.
+
+    Raises:
+        ac.DataError: for a file that cannot be read, or whose ending is not known.
+    """
+    options: dict[str, Any] = {"missing": args.missing}
+    options |= {"columns": args.columns} if args.columns else {}
+    options |= {"group": args.group} if args.group else {}
+    options |= {"rename": dict(args.rename)} if args.rename else {}
+    if args.time is not None:
+        options["time"] = args.time
+    return ac.Data.from_files(paths[0] if len(paths) == 1 else paths, **options)
+
+
+def read_record(path: str, args: Namespace) -> ac.Data:
+    """The only record of a file.
+
+    Raises:
+        ac.DataError: as `read_records`, and for a pattern.
+    """
+    found = read_records([path], args)
+    if isinstance(found, dict):
+        raise ac.DataError(f"{shown(path)} are several files; give one.")
+    return found

@@ -17,13 +17,14 @@ from acausal.command.arguments import (
     add_command,
     add_model,
     add_parameters,
+    add_reading,
     file_name,
     need_unread,
+    read_records,
     value_by_name,
 )
 from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.output import CommandOutput, number
-from acausal.command.records import add_reading, read_records
 from acausal.errors import known_name, listing, reason, shown
 
 

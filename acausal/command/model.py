@@ -38,8 +38,7 @@ def title_of(system: ac.System) -> str:
 def model_of(text: str, options: dict[str, Any]) -> ac.Component | ac.System:
     """A model by its file, ``file.mo:Package.Model`` or ``module:Class``; an FMU runs native code that it brings along.
 
-    Arguments:
-        options: of `ac.load`.
+    The options are those of `ac.load`.
 
     Raises:
         ac.ModelError: where there is none.

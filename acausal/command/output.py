@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import math
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from textwrap import indent
 from typing import Any, TextIO
 
 from acausal.command.exit_codes import kind_of
+from acausal.files import json_text
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,14 @@ class CommandOutput:
         if sys.stdout.isatty():
             _rich_table(header, rows)
         else:
-            sys.stdout.write(_aligned([header, *rows]))
+            from acausal.reporting import aligned  # so that help imports no sympy
+
+            sys.stdout.write(indent(aligned([header, *rows]), "  ") + "\n")
 
     def result(self, document: Mapping[str, Any]) -> None:
         """The result for programs, with the warnings."""
         if self.as_json:
-            self._json({**document, "warnings": self.warnings})
+            sys.stdout.write(json_text({**document, "warnings": self.warnings}))
 
     def warn(self, sentence: str) -> None:
         """A warning, on the standard error."""
@@ -65,11 +67,8 @@ class CommandOutput:
         self._styled(sys.stderr, "error: ", sentence, "bold red")
         if self.as_json:
             told = {"kind": kind, "message": sentence, "exit_code": code}
-            self._json({"error": told, "warnings": self.warnings})
+            sys.stdout.write(json_text({"error": told, "warnings": self.warnings}))
         return code
-
-    def _json(self, document: Mapping[str, Any]) -> None:
-        sys.stdout.write(json.dumps(_finite(document), ensure_ascii=False, allow_nan=False) + "\n")
 
     def _styled(self, stream: TextIO, label: str, text: str, style: str) -> None:
         if stream.isatty():
@@ -87,13 +86,6 @@ def number(value: Any) -> str:
     return f"{float(value):.6g}"
 
 
-def _aligned(rows: Sequence[Sequence[str]]) -> str:
-    """Rows as text with columns below each other."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
-    return "".join(f"  {line}\n" for line in lines)
-
-
 def _rich_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     from rich.box import SIMPLE_HEAD
     from rich.console import Console
@@ -104,12 +96,3 @@ def _rich_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     for row in rows:
         table.add_row(*map(Text, row))
     Console().print(table)
-
-
-def _finite(value: Any) -> Any:
-    """The same with null for numbers that JSON does not know."""
-    if isinstance(value, Mapping):
-        return {str(name): _finite(inner) for name, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(inner) for inner in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -14,14 +14,15 @@ from acausal.command.arguments import (
     add_command,
     add_model,
     add_parameters,
+    add_reading,
     file_name,
     need_unread,
     number_by_name,
+    read_records,
 )
 from acausal.command.fit import add_training, keywords_of
 from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.output import CommandOutput, number
-from acausal.command.records import add_reading, read_records
 from acausal.errors import listing
 
 

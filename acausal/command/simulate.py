@@ -14,13 +14,14 @@ from acausal.command.arguments import (
     add_command,
     add_model,
     add_parameters,
+    add_reading,
     need_unread,
     number_by_name,
+    read_record,
 )
 from acausal.command.exit_codes import UsageError
 from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.output import CommandOutput, number
-from acausal.command.records import add_reading, read_record
 from acausal.errors import known_name
 from acausal.files import csv_text, need_path, write_files
 

@@ -24,17 +24,10 @@ FRACTIONS = (1 - np.cos(np.pi * np.arange(1, DEGREE) / DEGREE)) / 2
 def between(
     values: Float[Array, " n"], fractions: Float[np.ndarray, " k"]
 ) -> Float[Array, "n_intervals k"]:
-    """A band-limited signal between its equally spaced samples.
+    """A band-limited signal at some fractions of every interval between its equally spaced samples.
 
     The line through both ends is subtracted, the rest is continued as an odd function about its ends, which leaves
     neither a jump nor a kink, and shifted by multiplying its Fourier transform.
-
-    Arguments:
-        values: samples, shape (n,).
-        fractions: of an interval, shape (k,).
-
-    Returns:
-        The values at these fractions of every interval, shape (n - 1, k).
     """
     n = len(values) - 1
     place = np.arange(n + 1) / n

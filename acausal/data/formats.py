@@ -34,14 +34,7 @@ READERS = {
 
 
 class CsvOptions(TypedDict, total=False):
-    """Options of all ways to read a record.
-
-    Attributes:
-        columns: names of the columns to read, besides the times; by default all.
-        rename: names in the file, and the model's variables that they are: ``{"ch 7": "mass.a"}``.
-        units: units by name of the signal in the record; they count, not those of the file.
-        before_start, after_end, missing: as of `acausal.Data`.
-    """
+    """Options of all ways to read a record, as of `Formats.from_csv`."""
 
     columns: Sequence[str] | None
     rename: Mapping[str, str] | None

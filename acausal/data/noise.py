@@ -29,10 +29,7 @@ def noise_level(
 
     A divided difference of order n is a sum of n + 1 samples with weights whose squares add up to one, after scaling:
     of white noise it keeps the variance. A smooth signal adds to it, so that the least estimate over `ORDERS` is taken.
-    Differences across gaps are left out.
-
-    Arguments:
-        pieces: samples. times: of them; evenly spaced by default.
+    Differences across gaps are left out. Without times, samples are evenly spaced.
     """
     places = [np.arange(len(y), dtype=float) for y in pieces] if times is None else times
     known = [(y[np.isfinite(y)], t[np.isfinite(y)]) for y, t in zip(pieces, places, strict=True)]

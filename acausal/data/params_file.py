@@ -132,12 +132,7 @@ def _settings_of(name: str, settings: Mapping[str, str]) -> dict[str, str]:
 
 @singledispatch
 def like_saved(leaf: Any, settings: Mapping[str, str]) -> Any:
-    """A network like a saved one, where a training chooses settings that it was made without; others as they are.
-
-    Arguments:
-        leaf: the model's own.
-        settings: of the saved one, as texts by field.
-    """
+    """The model's network with the settings of a saved one that a training chooses; others as they are."""
     return leaf
 
 

@@ -204,9 +204,7 @@ class Data(ByName, Formats):
     def signal(self, name: str, interpolation: Interpolation = "linear") -> Signal:
         """A signal as a function of time, through the samples that exist; a long gap among them gives a warning.
 
-        Arguments:
-            name: of the signal.
-            interpolation: for a signal for which the record has no choice.
+        The interpolation is for a signal for which the record has no choice.
         """
         ts, values = self.samples(name)
         kind: Interpolation = chosen(self.interpolation, name, interpolation)
@@ -346,13 +344,7 @@ def _warn_of_celsius(signals: Mapping[str, Float[np.ndarray, " n"]], system: Sys
 
 
 def _warn_of_gaps(ts: Float[np.ndarray, " n"], name: str, interpolation: str) -> None:
-    """Warn once of the gaps of a signal that is used as a function of time; the longest is named.
-
-    Arguments:
-        ts: times of the samples that exist, in seconds.
-        name: of the signal.
-        interpolation: what bridges the gaps.
-    """
+    """Warn once of the gaps of a signal that is used as a function of time, which it bridges; the longest is named."""
     steps = np.diff(ts)
     median = float(np.median(steps)) if len(steps) else 0.0
     count = int(np.count_nonzero(steps > LONG * median))

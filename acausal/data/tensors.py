@@ -26,12 +26,7 @@ Arrays = dict[str, np.ndarray]
 
 
 def write_arrays(path: Path, arrays: Mapping[str, np.ndarray], about: Mapping[str, Any]) -> None:
-    """Write a file, completely or not at all.
-
-    Arguments:
-        path: the file.
-        arrays: its arrays, by name.
-        about: its description, of values that JSON can hold.
+    """Write arrays by name and a description, of values that JSON can hold: completely or not at all.
 
     Raises:
         OSError: if it cannot be written.

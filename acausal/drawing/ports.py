@@ -21,13 +21,7 @@ BELOW = ("support", "heatPort", "bearing")
 
 
 def ports_of(part: Component, icon: Icon, *, is_list: bool = False) -> tuple[Port, ...]:
-    """Connectors and signals of a component, in order of declaration.
-
-    Arguments:
-        part: the component.
-        icon: its picture, which may say on which side a port is.
-        is_list: whether the component stands for a list.
-    """
+    """Connectors and signals of a component, or of a list of such, in order; its icon may say on which side."""
     declared = [
         (name, d)
         for name, d in part._node.declarations()

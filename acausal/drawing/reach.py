@@ -20,12 +20,7 @@ Piece = tuple[Point, Point]
 
 
 def reach(data: str, start: Point, way: Point) -> float | None:
-    """How far a straight line goes until it meets the strokes of a picture; None where it misses them.
-
-    Arguments:
-        data: SVG path data.
-        start: where the line begins. way: its direction, a unit vector along an axis.
-    """
+    """How far a line goes, along a unit vector, until it meets the strokes of SVG path data; None where it misses."""
     found: list[float] = []
     for piece in pieces(data):
         (u, v), (x, y) = (_along(point, start, way) for point in piece)

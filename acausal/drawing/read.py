@@ -84,10 +84,9 @@ class _Reader:
     # -- ends ------------------------------------------------------------------------------------
 
     def _end(self, end: Any, *, outside: bool = False) -> _Fine:
-        """The connector that an end of a connection is, with the box and the port that it is drawn at.
+        """The connector of an end, with the box and the port that it is drawn at.
 
-        Arguments:
-            outside: whether levels above reach into the model for it, so that it is a gate.
+        ``outside``: whether levels above reach into the model for it, so that it is a gate.
         """
         owner, name = owner_and_name(end)
         route = () if owner is None else owner.route_from(self.model._node) or ()

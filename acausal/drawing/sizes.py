@@ -47,12 +47,7 @@ def text_width(text: str, size: float = FONT) -> float:
 
 
 def size_of(box: Box, facing: Facing, used: Collection[int]) -> Size:
-    """The sizes of a box.
-
-    Arguments:
-        box, facing: the box and how it is turned.
-        used: numbers of its connected ports.
-    """
+    """The sizes of a box as it is turned, with room for its connected ports, by their numbers."""
     width, height = box.icon.size
     if box.inner is not None:
         return Size((width, height), (width, height))

@@ -37,11 +37,7 @@ CIRCLE = 10
 
 @compiled
 def _begun(events: Events, at: Values) -> Float[Array, " n_discrete"]:
-    """Discrete variables that agree with the initial values, as they are before the first event.
-
-    Arguments:
-        events: of the model. at: the values at the start, with the discrete variables' start values.
-    """
+    """Discrete variables that agree with the initial values, as they are before the first event, from their starts."""
     none = -jnp.ones(events.n_guards, at.x.dtype)
     d, _ = iterate(events, at, none, none, 1.0)
     smooth = updated(events, at._replace(d=d), at, d[: events.n_guards], 1.0)

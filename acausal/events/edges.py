@@ -71,11 +71,7 @@ class _Part:
 
 @dataclass(frozen=True, eq=False)
 class Edges(LeavesCaches):
-    """Those of a program: true if there are any.
-
-    Attributes:
-        program: whose derivatives of the states are looked at.
-    """
+    """Those of the derivatives of the states of a program: true if there are any."""
 
     program: Program
 

@@ -174,11 +174,7 @@ def _guard(group: GuardGroup, own: Update, program: Program) -> Guard:
 
 
 def _in_order(updates: list[Update], n: int, program: Program) -> list[tuple[int, Integers]]:
-    """Rows of updates in order: a discrete variable that others read, at the same event, comes before them.
-
-    Arguments:
-        n: how many discrete variables there are.
-    """
+    """Rows of updates in order: one of n discrete variables that others read, at the same event, comes before them."""
     level = np.zeros(n, dtype=np.int64)
     reads = [pair for u in updates for pair in _reads(u, DISCRETE, program)]
     for _ in range(n):

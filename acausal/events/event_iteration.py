@@ -138,11 +138,7 @@ def fire(
 
 
 def after_pass(events: Events, at: Values, this: Pass) -> tuple[Array, Array]:
-    """States and discrete variables behind a pass; with derivatives in both modes.
-
-    Arguments:
-        events: of the model. at: time, inputs and parameters. this: the pass.
-    """
+    """States and discrete variables behind a pass at a time, inputs and parameters; with derivatives in both modes."""
     before = at._replace(x=this.x, d=this.d)
     now = before._replace(d=this.found)
 

@@ -66,11 +66,7 @@ def _plain(name: str) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Symbols:
-    """An array of CasADi expressions.
-
-    Attributes:
-        of: an array of objects: expressions and numbers.
-    """
+    """An array of objects: CasADi expressions and numbers."""
 
     of: np.ndarray
 

@@ -47,11 +47,7 @@ class NameRange:
 
 
 def runs(names: Sequence[str]) -> list[NameRange]:
-    """Groups of variables, in the order of their first ones.
-
-    Arguments:
-        names: of all variables, in the order in which they lie.
-    """
+    """Groups of variables, which are named in the order in which they lie, in the order of their first ones."""
     groups: dict[tuple[str, str], list[tuple[int, int]]] = {}
     for place, name in enumerate(names):
         found = INDEX.search(name)

@@ -51,13 +51,10 @@ class Watch:
 
 
 def watched(system: System, ranges: Ranges | None, function: str) -> Watch | None:
-    """The calls of the networks that have ranges; None where there are none.
-
-    Arguments:
-        ranges: see `Ranges`. function: that was called with them, for messages.
+    """The calls of the networks that have `Ranges`; None where there are none.
 
     Raises:
-        DataError: for an unknown network, or what is no interval for each of its arguments.
+        DataError: for an unknown network, or what is no interval for each of its arguments; it names the ``function``.
     """
     if ranges is None:
         return None

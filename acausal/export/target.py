@@ -74,11 +74,8 @@ def target_of(
 ) -> Target:
     """A right-hand side, an observer's step, a network of a system, or a network; arguments as of ``export.onnx``.
 
-    Arguments:
-        function: that was called, for messages.
-
     Raises:
-        DataError: for an unknown name, or arguments that do not fit.
+        DataError: for an unknown name, or arguments that do not fit; it names the ``function`` that was called.
         ModelError: for a model that is not compiled.
     """
     need_known(f"export.{function}", model, params)
@@ -241,10 +238,7 @@ def _of_observer(observer: Observer, outputs: tuple[str, ...]) -> Target:
 def _of_network(
     network: Callable[..., Any], inputs: Sequence[str], output: str, units: Mapping[str, str]
 ) -> Target:
-    """A law of named quantities; of an energy, its derivative, which is the law.
-
-    Arguments:
-        inputs, output: names. units: by name.
+    """A law of named quantities, with units by name; of an energy, its derivative, which is the law.
 
     Raises:
         DataError: for a network that cannot be called with as many numbers.

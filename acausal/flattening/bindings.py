@@ -90,13 +90,9 @@ def parameter_aliases(bindings: Sequence[Binding], n_parameters: int) -> Integer
 def binding_levels(
     bindings: Sequence[Binding], aliases: Integers
 ) -> tuple[list[list[Binding]], list[Binding]]:
-    """Bindings in an order in which they can be computed: those of a level need earlier levels only.
+    """Levels of bindings, each of which needs earlier levels only; and the bindings in a circle or behind one.
 
-    Arguments:
-        aliases: (n_parameters,) which parameter is read in the place of each.
-
-    Returns:
-        The levels, and the bindings in a circle or behind one.
+    Parameters are read at their aliases.
     """
     number = {b.target: i for i, b in enumerate(bindings)}
     needs = [

@@ -109,7 +109,10 @@ def connection_groups(layout: Layout, connected: ConnectionSets) -> tuple[Equati
     zero = _unconnected_flows(layout, connected.pairs)
     groups = [*equalities(equal)]
     for inner, rows in sums.items():
-        groups.append(_group(_balance(inner), np.asarray(rows), "connected: flows sum to zero"))
+        template = balance(
+            tuple(-1 if i else 1 for i in inner)
+        )  # an inner side's flow counts negatively
+        groups.append(_group(template, np.asarray(rows), "connected: flows sum to zero"))
     groups.append(_group(balance((1,)), zero[:, None], "unconnected: no flow"))
     return tuple(g for g in groups if len(g))
 
@@ -266,8 +269,3 @@ def _group(template: Statement, variables: Integers, text: str) -> EquationGroup
 def _equality() -> Template:
     a, b = slot("a"), slot("b")
     return interned(Template(a - b, (a, b), (0, 0), (), ()))
-
-
-def _balance(inner: tuple[bool, ...]) -> Statement:
-    """The sum of the flows into the connected components: at an inner side the flow counts negatively."""
-    return balance(tuple(-1 if i else 1 for i in inner))

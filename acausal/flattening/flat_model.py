@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -81,11 +81,23 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
         watched = np.concatenate([np.zeros(0, np.int64), *guards])
         return np.concatenate([watched, np.setdiff1d(declared, [*watched, *self.given])])
 
+    def equations(
+        self, *, initial: bool = False, at_events: bool = True
+    ) -> Iterator[EquationGroup]:
+        """All equations: those that always hold, conditions, and what variables become at events.
+
+        Those at the initial time are left out, unless they are asked for; those of changes at events may be.
+        """
+        yield from (*self.groups, *(self.initial if initial else ()))
+        yield from (guard.group for guard in self.events.guards)
+        for update in (*self.events.updates, *self.events.jumps) if at_events else ():
+            name = self.layout.variable(int(update.targets[0])).rpartition(".")[2]
+            yield update.as_equation(name)
+
     def stated_at(self, component: int, origin: object) -> str:
         """Where an equation is stated, and its text, for messages.
 
-        Arguments:
-            component: its number; of connections, -1 minus the number of a variable of a connector.
+        The component of connections is -1 minus the number of a variable of a connector.
         """
         if component < 0:
             return f"{self.layout.variable(-1 - component).rpartition('.')[0]} ({origin})"

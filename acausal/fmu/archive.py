@@ -40,11 +40,7 @@ CHUNK = 2**20
 
 
 class Folder:
-    """A folder that is removed when nothing refers to it any more, or Python ends.
-
-    Attributes:
-        path: of the folder.
-    """
+    """A folder that is removed when nothing refers to it any more, or Python ends."""
 
     def __init__(self) -> None:
         self.path = Path(tempfile.mkdtemp(prefix="acausal-fmu-"))

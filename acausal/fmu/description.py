@@ -58,8 +58,7 @@ def definitions(units: Any) -> dict[str, InSI]:
 def conversion(unit: str, known: Mapping[str, InSI], *, is_difference: bool) -> Conversion:
     """From a unit of an FMU to that of the model: as the FMU defines it, else as its text says.
 
-    Arguments:
-        is_difference: whether the variable is a difference, of two temperatures for example: it has no offset.
+    A variable that is a difference, of two temperatures for example, has no offset.
     """
     si = known.get(unit) or (in_si(unit) if unit else None)
     offset = 0.0 if si is None or is_difference else si.offset

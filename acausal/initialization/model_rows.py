@@ -19,13 +19,7 @@ Row = dict[str, Any]
 def overview(
     initial: Initializer, params: Mapping[str, Any] | Packed, outputs: Sequence[str]
 ) -> dict[str, Row]:
-    """Rows by dotted name, with the columns kind, value, unit, doc, start and origin.
-
-    Arguments:
-        initial: of the model.
-        params: the values of its parameters.
-        outputs: names of its output signals.
-    """
+    """Rows by dotted name, with the columns kind, value, unit, doc, start and origin; ``outputs`` are signals."""
     conditions = initial.conditions
     layout, model = conditions.parameters, initial.reduced.model
     packed = pack(layout, params)

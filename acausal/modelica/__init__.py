@@ -6,10 +6,10 @@ It knows declarations and netlists; neither flattening nor JAX. Text is parsed, 
 
 from acausal.modelica.build import ModelicaModel as ModelicaModel
 from acausal.modelica.grammar import parse as parse
-from acausal.modelica.load import load as load
-from acausal.modelica.package import (
+from acausal.modelica.load import (
     ModelicaPackage as ModelicaPackage,
     import_modelica as import_modelica,
+    load as load,
 )
 from acausal.modelica.tokens import (
     KEYWORDS as KEYWORDS,

@@ -225,8 +225,7 @@ class ClassNode:
     def lookup(self, words: Sequence[str], *, of_base: bool = False) -> tuple[Any, Sequence[str]]:
         """What a name means here: what is found by its first words, and the words that are left.
 
-        Arguments:
-            of_base: whether it names a base, which is not looked for in what is inherited.
+        A base (``of_base``) is not looked for in what is inherited.
         """
         if words[0] == "":
             found = self.tree.root(words[1])

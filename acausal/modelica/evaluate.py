@@ -48,11 +48,7 @@ from acausal.modeling import check_size, floor, time
 
 
 class Evaluator(Operators):
-    """Evaluates the expressions of one statement.
-
-    Attributes:
-        connecting: whether these are ends of a connection.
-    """
+    """Evaluates the expressions of one statement, which may be the ends of a connection."""
 
     connecting = False
 
@@ -191,8 +187,7 @@ class Evaluator(Operators):
     ) -> list[Any]:
         """Positions from 0 for each dimension: a number, or a list of them.
 
-        Arguments:
-            changing: whether subscripts may change with time; such a one is given as it is, from 1.
+        Where subscripts may change with time (``changing``), such a one is given as it is, from 1.
         """
         if len(subscripts) > len(shape):
             raise self.wrong(

@@ -47,8 +47,7 @@ class ModifierValues(Scope):
 def make_part(cls: Any, given: Sequence[Given], base: Any = None) -> Any:
     """An instance of a class of a library, with the modifiers that it must be made with.
 
-    Arguments:
-        base: the constructor to call for an instance of a class that extends libraries' classes.
+    ``base`` is the constructor to call for an instance of a class that extends libraries' classes.
     """
     if base is not None:
         cls = next(c for c in cls.__mro__ if not hasattr(c, "_class"))

@@ -87,11 +87,7 @@ PATH_HINT = "give the folder that has it by path=[...] or in MODELICAPATH"
 
 
 def unknown_name(node: Any, name: DottedName, what: str) -> str:
-    """Why a name means nothing in a class, and what may help.
-
-    Arguments:
-        node: the class, a `acausal.modelica.classes.ClassNode`. what: it should be.
-    """
+    """Why a name means nothing in a class, a `acausal.modelica.classes.ClassNode`, and what may help."""
     packages = [clause.package for clause in node.imports if clause.everything]
     names = [name.text, *(f"{package}.{name.text}" for package in packages)]
     if reason := next(filter(None, map(refused_package, names)), ""):

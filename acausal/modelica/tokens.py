@@ -45,12 +45,7 @@ class NumbersNeededError(ModelicaError):
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """The text of one file.
-
-    Attributes:
-        name: of the file, for messages.
-        folder: of the file, where it is known.
-    """
+    """The text of one file, with its name and, where it is known, its folder."""
 
     name: str
     text: str

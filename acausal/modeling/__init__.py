@@ -97,6 +97,7 @@ from acausal.modeling.icon import Icon as Icon, Placement as Placement, Shape as
 from acausal.modeling.names import (
     ByName as ByName,
     Name as Name,
+    antiderivatives as antiderivatives,
     by_name as by_name,
     names_in as names_in,
     names_matching as names_matching,

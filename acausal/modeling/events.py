@@ -31,11 +31,7 @@ INITIAL = sp.Symbol("initial()", real=True)
 
 
 class Previous(Compared):
-    """The value of a variable just before an event; between events its value.
-
-    Attributes:
-        reference: the variable.
-    """
+    """The value of a variable just before an event; between events its value."""
 
     reference: Reference
 
@@ -111,13 +107,10 @@ def _literal(expression: Any, known: dict[Any, Any]) -> Any:
 
 
 def condition(value: Any, where: str) -> Boolean:
-    """A condition; a variable or another signal counts as true above 1/2.
-
-    Arguments:
-        value: what the user gave. where: for the message.
+    """What a user gave as a condition; a variable or another signal counts as true above 1/2.
 
     Raises:
-        DeclarationError: for what is not a condition.
+        DeclarationError: for what is not a condition; it says where.
     """
     if isinstance(value, bool):
         raise DeclarationError(

@@ -144,6 +144,12 @@ def by_name(given: Any, argument: str, example: str) -> dict[str, Any]:
     return {name: given[name] for name in names_in(given, argument)} if given is not None else {}
 
 
+def antiderivatives(name: str) -> tuple[str, ...]:
+    """A name, and what it is a derivative of: ``der(der(u))``, ``der(u)``, ``u``."""
+    inner = name.startswith("der(") and name.endswith(")")
+    return (name, *antiderivatives(name[4:-1])) if inner else (name,)
+
+
 def names_in(given: Any, argument: str = "") -> tuple[str, ...]:
     """Names as Python's own texts: those of one text, or of any iterable of texts (NumPy's and pandas' too).
 

@@ -15,18 +15,7 @@ from acausal.modeling.symbols import Reference
 
 
 def replace_part(model: Node[Any], path: str, new: Node[Any]) -> None:
-    """Put a part into a model in the place of another.
-
-    Arguments:
-        model: the record of the model.
-        path: of the part that goes, such as ``"suspension.damper"`` or ``"wheel[2].tyre"``.
-        new: the record of the one in its place; it has the connectors and signals that are connected.
-
-    Raises:
-        DeclarationError: if there is no such part, the new one is in a model already, or a value elsewhere depends on
-            the one that goes.
-        ConnectionError: if the new part lacks what is connected, or it is of another kind.
-    """
+    """Put a part into a model in the place of another, by their records; errors as of `Component.replace`."""
     above, name = _place(model, path)
     old: Node[Any] = above.children[name]._node
     if new.parent is not None or new is model:

@@ -216,11 +216,7 @@ def primes(orders: Iterable[Any]) -> str:
 
 
 class GivenModule(sp.Symbol):
-    """A module as a part of an expression: one that is no parameter.
-
-    Attributes:
-        value: the module.
-    """
+    """A module as a part of an expression: one that is no parameter."""
 
     value: Any
 

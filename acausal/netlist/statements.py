@@ -34,10 +34,7 @@ EVENT_FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 
 def parse_statement(text: str, lookup: Lookup) -> Eq | When:
-    """An equation ``left = right``, or what happens at an event.
-
-    Arguments:
-        lookup: as for `parser.parse`.
+    """An equation ``left = right``, or what happens at an event; names as for `parser.parse`.
 
     Raises:
         ExpressionError: one sentence that says where the text is wrong.

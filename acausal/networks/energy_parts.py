@@ -22,17 +22,6 @@ class Bowl(Wrapper):
         return 0.5 * squares * jax.nn.softplus(self.net(*inputs) + START)
 
 
-class FromRest(Wrapper):
-    """``W(x, T) − W(0, T)``: an energy less its value at rest."""
-
-    inputs: int = eqx.field(static=True, default=1)
-
-    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
-        """The output for scalar inputs."""
-        rest = [jnp.zeros_like(x) for x in inputs[: self.inputs]]
-        return self.net(*inputs) - self.net(*rest, *inputs[self.inputs :])
-
-
 class Levelled(Wrapper):
     """``W(x, T) − W(0, T) − ∂W(0, T)/∂x · x``: no energy and no force at rest.
 

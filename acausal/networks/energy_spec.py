@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from acausal.errors import DeclarationError, need_whole
 from acausal.networks.activations import SMOOTH, SMOOTH_AND_CONVEX
-from acausal.networks.energy_parts import Bowl, FromRest, Levelled, WithMinCurvature
+from acausal.networks.energy_parts import Bowl, Levelled, WithMinCurvature
 from acausal.networks.extrapolation import ContinuedEnergy
-from acausal.networks.law_parts import Even, start_at
+from acausal.networks.law_parts import Even, OffsetCorrected, start_at
 from acausal.networks.mlp import MLP, Key
 from acausal.networks.monotone_and_convex import Convex
 from acausal.networks.scaled import EnergyLaw
@@ -78,12 +78,12 @@ class Energy(NetworkSpec):
         if self.vanishes and not (self.passive or self.odd):
             return Levelled(net, self.inputs)
         net = Even(net, self.inputs) if self.odd else net
-        return (Bowl if self.passive else FromRest)(net, self.inputs)
+        return (Bowl if self.passive else OffsetCorrected)(net, self.inputs)
 
     def _convex(self, own: Layers) -> Net:
         net: Net = Convex(self.inputs, self.secondary, **own)
         if self.floor or self.start:
             net = WithMinCurvature(net, self.floor, start_at(self.start), self.inputs)
         if self.odd:  # its minimum is where its derivative is zero: at zero
-            return FromRest(Even(net, self.inputs), self.inputs)
-        return (Levelled if self.vanishes else FromRest)(net, self.inputs)
+            return OffsetCorrected(Even(net, self.inputs), self.inputs)
+        return (Levelled if self.vanishes else OffsetCorrected)(net, self.inputs)

@@ -141,12 +141,7 @@ def with_scales(
 @like_saved.register(Scaled)
 @like_saved.register(EnergyLaw)
 def _(network: Any, settings: Mapping[str, str]) -> Any:
-    """A network that lacks scales, with those of a saved one; any other network as it is.
-
-    Arguments:
-        network: the model's own.
-        settings: of the saved network, as texts by field.
-    """
+    """A network of the model that lacks scales, with those of a saved one, as texts by field; any other as it is."""
     if not lacks_scales(network):
         return network
     if "left_open" not in settings and "net.left_open" in settings:

@@ -18,11 +18,7 @@ START = -2.0
 
 
 class Wrapper(eqx.Module):
-    """A network around another one.
-
-    Attributes:
-        net: the network inside.
-    """
+    """A network around another one, ``net``."""
 
     net: Callable[..., Array]
 
@@ -37,11 +33,7 @@ class Odd(Wrapper):
 
 
 class Even(Wrapper):
-    """``½ (F(x, T) + F(−x, T))``: even if all first inputs change sign, and as convex as ``F`` is.
-
-    Attributes:
-        inputs: how many change their sign.
-    """
+    """``½ (F(x, T) + F(−x, T))``: even if all first ``inputs`` change sign, and as convex as ``F`` is."""
 
     inputs: int = eqx.field(static=True, default=1)
 
@@ -52,14 +44,20 @@ class Even(Wrapper):
 
 
 class OffsetCorrected(Wrapper):
-    """A network less its value at zero: ``F̃(x) = F(x) − F(0)``, the paper's (5).
+    """A network less its value at zero: ``F̃(x) = F(x) − F(0)``, the paper's (5); an energy less its value at rest.
 
-    With secondary inputs only the first is set to zero: ``F̃(x, T) = F(x, T) − F(0, T)``.
+    With secondary inputs only the first are set to zero: ``F̃(x, T) = F(x, T) − F(0, T)``.
+
+    Attributes:
+        inputs: how many are set to zero.
     """
+
+    inputs: int = eqx.field(static=True, default=1)
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The corrected output for scalar inputs."""
-        return self.net(*inputs) - self.net(jnp.zeros_like(inputs[0]), *inputs[1:])
+        rest = [jnp.zeros_like(x) for x in inputs[: self.inputs]]
+        return self.net(*inputs) - self.net(*rest, *inputs[self.inputs :])
 
 
 class DryFrictionFactor(eqx.Module):

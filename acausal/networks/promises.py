@@ -10,7 +10,6 @@ import numpy as np
 from acausal.networks.energy_parts import (
     BesideQuadratic,
     Bowl,
-    FromRest,
     Levelled,
     WithMinCurvature,
 )
@@ -127,7 +126,9 @@ _ENERGIES: dict[type, Rule] = {
     BesideQuadratic: lambda net, inside: inside & {"even", "zero"} if net.offset is None else set(),
     Even: lambda net, inside: inside | {"even"},
     Bowl: lambda net, inside: (inside & {"even"}) | {"passive", "zero"},
-    FromRest: lambda net, inside: inside | ({"passive"} if {"even", "convex"} <= inside else set()),
+    OffsetCorrected: lambda net, inside: (
+        inside | ({"passive"} if {"even", "convex"} <= inside else set())
+    ),
     Levelled: lambda net, inside: (
         inside | ({"passive", "zero"} if "convex" in inside else {"zero"})
     ),

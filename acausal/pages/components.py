@@ -15,7 +15,7 @@ from acausal.drawing import diagram_svg
 from acausal.errors import AcausalError
 from acausal.flattening import is_hidden
 from acausal.modeling import Component, Eq, Module, Option
-from acausal.pages.energy_of_components import energy_blocks, power_names
+from acausal.pages.energy import energy_blocks, power_names
 from acausal.pages.own_law import own_equations
 from acausal.pages.trajectories import plot_of_runs, plots_by_unit
 from acausal.reporting import (
@@ -205,18 +205,15 @@ class _Book:
         if not form.parameters:
             return None
         indices = first + np.arange(len(form.parameters))
-        values = self.parameter_values[indices]
+        values, changes = self.parameter_values[indices], self.known.changes
         rows = [
-            (local, f"{value:.6g}", declared.unit or "1", *self._change(layout.parameter(int(i))), declared.doc)
+            (local, f"{value:.6g}", declared.unit or "1", *changes.get(layout.parameter(int(i)), NOTHING), declared.doc)
             for i, (local, declared), value in zip(indices, form.parameters, values.tolist(), strict=True)
         ]  # fmt: skip
         if all(row[3:5] == NOTHING for row in rows):
             rows = [(*row[:3], *row[5:]) for row in rows]
             return table(("parameter", "value", "unit", "meaning"), rows)
         return table(("parameter", "value", "unit", "trained change", "one sigma", "meaning"), rows)
-
-    def _change(self, name: str) -> tuple[str, str]:
-        return self.known.changes.get(name, NOTHING)
 
     def _trajectories(self, number: int) -> list[Block]:
         plots = self._plots(number)

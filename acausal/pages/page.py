@@ -9,8 +9,7 @@ from acausal.errors import DataError, need_text, shown
 from acausal.files import need_path, write_files
 from acausal.modeling import Component
 from acausal.pages.components import MOST_CARDS, Known, component_cards, schematic
-from acausal.pages.estimates import sensors
-from acausal.pages.trajectories import plots_by_unit
+from acausal.pages.trajectories import plots_by_unit, sensors
 from acausal.reporting import PageContent, Section, Tab, render
 from acausal.simulation import Solution, has_shapes
 from acausal.system import System, compile as compile_model

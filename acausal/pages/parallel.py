@@ -35,13 +35,7 @@ class ParallelLaw:
 
 
 def parallel_law(system: System, network: str, packed: Packed) -> ParallelLaw | None:
-    """The known elements beside that of a network, where its law is the flow between two connectors.
-
-    Arguments:
-        system: the model.
-        network: name of the module, such as ``"damper.net"``.
-        packed: the model's parameters.
-    """
+    """The known elements beside that of a network, where its law is the flow between two connectors."""
     layout, (path, _, local) = system.flat.layout, network.rpartition(".")
     if path not in layout.number:
         return None

@@ -5,7 +5,6 @@ It does not know the classes of results, whose methods such as `Fit.report` call
 with the attributes of a small protocol.
 """
 
-from acausal.reporting.axes import one_axes as one_axes
 from acausal.reporting.document.builder import Page as Page, write_json as write_json
 from acausal.reporting.document.content import (
     Animation as Animation,
@@ -49,6 +48,7 @@ from acausal.reporting.model_view import (
 from acausal.reporting.over_time import (
     plot_over_time as plot_over_time,
     plot_predictions as plot_predictions,
+    plot_variants as plot_variants,
 )
 from acausal.reporting.plain_table import PlainTable as PlainTable, aligned as aligned
 from acausal.reporting.plot import (
@@ -57,11 +57,11 @@ from acausal.reporting.plot import (
     TRUTH as TRUTH,
     InputStatistics as InputStatistics,
     UncertainCurve as UncertainCurve,
+    one_axes as one_axes,
     plot_band as plot_band,
     plot_learned as plot_learned,
 )
 from acausal.reporting.short_names import Short as Short, shorten as shorten
-from acausal.reporting.variants import plot_variants as plot_variants
 from acausal.reporting.view import (
     Html as Html,
     View as View,

@@ -10,8 +10,7 @@ import numpy as np
 from jaxtyping import Complex, Float
 from numpy.typing import ArrayLike
 
-from acausal.reporting.axes import one_axes, several_axes
-from acausal.reporting.plot import GUIDE, LEARNED
+from acausal.reporting.plot import GUIDE, LEARNED, one_axes, several_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,15 +23,10 @@ def plot_bode(
     *,
     axes: Sequence[Axes] | None = None,
 ) -> Figure:
-    """Draw magnitude [dB] and phase [degrees] over the angular frequency [rad/s].
-
-    Arguments:
-        omega: angular frequencies.
-        curves: responses by label.
-        axes: two matplotlib axes; by default those of a new figure.
+    """Draw magnitude [dB] and phase [degrees] of responses by label over the angular frequency [rad/s].
 
     Raises:
-        DataError: for other axes.
+        DataError: for other than two axes; by default they are those of a new figure.
     """
     upper, lower = several_axes(axes, (7.0, 5.0), 2, "2, for magnitude and phase")
     for (label, response), color in zip(curves.items(), cycle(LEARNED), strict=False):
@@ -52,12 +46,7 @@ def plot_bode(
 def plot_nyquist(
     curves: Mapping[str, Complex[np.ndarray, " n"]], *, ax: Axes | None = None
 ) -> Figure:
-    """Draw responses in the complex plane, for negative frequencies dashed, and mark the point -1.
-
-    Arguments:
-        curves: responses by label.
-        ax: matplotlib axes; by default those of a new figure.
-    """
+    """Draw responses by label in the complex plane, for negative frequencies dashed, and mark the point -1."""
     ax = one_axes(ax, (6.0, 5.0))
     for (label, response), color in zip(curves.items(), cycle(LEARNED), strict=False):
         real, imaginary = np.real(response), np.imag(response)
@@ -78,15 +67,10 @@ def plot_steps(
     *,
     axes: Sequence[Axes] | None = None,
 ) -> Figure:
-    """Draw step responses over time [s], with a diagram for each output.
-
-    Arguments:
-        time: in seconds.
-        curves: responses by output and label.
-        axes: matplotlib axes, one for each output; by default those of a new figure.
+    """Draw step responses by output and label over time [s], with a diagram for each output.
 
     Raises:
-        DataError: for other axes.
+        DataError: for axes that are not one for each output; by default they are those of a new figure.
     """
     n = len(curves)
     diagrams = several_axes(axes, (7.0, 1.0 + 2.0 * n), n, f"{n}, for outputs")

@@ -43,13 +43,10 @@ def system_view(
     equations: Sequence[sp.Equality],
     quantities: Mapping[str, Sequence[Quantity]],
 ) -> str:
-    """HTML that shows a compiled model.
+    """HTML that shows a compiled model, with its name and a sentence.
 
-    Arguments:
-        model: what was compiled.
-        title, about: its name, and a sentence.
-        equations: the explicit ones; none where there are too many to show.
-        quantities: states, inputs, parameters, networks: by such a heading, in order.
+    There are no explicit equations where they are too many to show. Quantities come by heading: states, inputs,
+    parameters, networks.
     """
     known = [quantity.name for group in quantities.values() for quantity in group]
     names = shorten([*known, *names_in((e.lhs, e.rhs) for e in equations)])

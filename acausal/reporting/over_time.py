@@ -1,4 +1,4 @@
-"""Plots of signals over time."""
+"""Plots over time: of signals, of predictions with bands, and of many variants of one signal."""
 
 from __future__ import annotations
 
@@ -9,8 +9,14 @@ from jaxtyping import Float
 from numpy import isnan, ndarray
 
 from acausal.errors import DataError, listing
-from acausal.reporting.axes import new_axes, several_axes
-from acausal.reporting.plot import TRUTH, UncertainCurve, plot_band
+from acausal.reporting.plot import (
+    TRUTH,
+    UncertainCurve,
+    new_axes,
+    one_axes,
+    plot_band,
+    several_axes,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,17 +31,9 @@ def plot_over_time(
     axes: Sequence[Axes] | None = None,
     steps: Collection[str] = (),
 ) -> Figure:
-    """Plot signals over time, with one diagram for each unit.
+    """Plot signals by name over time [s], with one diagram for each unit; an empty text stands for pure numbers.
 
-    Arguments:
-        time: in seconds.
-        curves: the signals by name.
-        units: their units by name; an empty text for pure numbers.
-        axes: matplotlib axes, one for each unit; by default those of a new figure.
-        steps: the signals that keep each value until the next.
-
-    Returns:
-        The figure.
+    ``steps`` are the signals that keep each value until the next.
 
     Raises:
         DataError: for axes that are not one for each unit, or if there is nothing to plot.
@@ -66,11 +64,7 @@ def plot_predictions(
     predicted: Mapping[str, UncertainCurve],
     units: Mapping[str, str],
 ) -> Figure:
-    """Plot signals as measured (NaN where they are not) and as predicted with bands, one below another.
-
-    Returns:
-        The figure.
-    """
+    """Plot signals as measured (NaN where they are not) and as predicted with bands, one below another."""
     axes = new_axes((7.0, 1.0 + 2.0 * len(predicted)), len(predicted))
     for ax, (name, band), column in zip(axes, predicted.items(), measured.T, strict=True):
         if not isnan(column).all():
@@ -80,3 +74,37 @@ def plot_predictions(
         ax.legend()
     axes[-1].set_xlabel("time in s")
     return cast("Figure", axes[0].figure)
+
+
+FAINT, CLEAR = 0.25, 0.9
+"""How opaque lines are: many of them, and a few."""
+
+MANY = 50
+"""So many lines are many."""
+
+
+def plot_variants(
+    time: Float[ndarray, " n"],
+    lines: Float[ndarray, "variants n"],
+    levels: Float[ndarray, " variants"],
+    labels: tuple[str, str],
+    *,
+    ax: Axes | None = None,
+) -> Figure:
+    """Draw the lines of a signal over time [s], coloured by its level in each variant, with a colour bar.
+
+    The labels are those of the signal and of the levels, with their units.
+    """
+    ax = one_axes(ax, (7.0, 3.5))
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    scale = ScalarMappable(Normalize(levels.min(), levels.max()), "viridis")
+    alpha = FAINT if len(lines) > MANY else CLEAR
+    for y, color in zip(lines, scale.to_rgba(levels), strict=True):
+        ax.plot(time, y, color=color, lw=1.2, alpha=alpha)
+    ax.set(xlabel="time in s", ylabel=labels[0])
+    ax.grid(alpha=0.25)
+    figure = cast("Figure", ax.figure)
+    figure.colorbar(scale, ax=ax, label=labels[1])
+    return figure

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations, pairwise
 
+from acausal.modeling import antiderivatives
+
 _LETTERS = """alpha beta gamma delta epsilon zeta eta theta kappa lambda lamda mu nu xi rho sigma tau phi chi psi omega
 pi Gamma Delta Theta Lambda Sigma Phi Psi Omega"""
 
@@ -41,15 +43,13 @@ class Short:
     @classmethod
     def of(cls, name: str, *below: str) -> Short:
         """A name without dots, such as ``v_rel`` or ``T[2]``, with further subscripts."""
-        dots = 0
-        while name.startswith("der(") and name.endswith(")"):
-            name, dots = name[4:-1], dots + 1
+        *dots, name = antiderivatives(name)
         found = _LAST.fullmatch(name.lstrip("_") or name)
         assert found is not None
         word, _, rest = found["word"].partition("_")
         places = found["places"].strip("[]").replace("][", ",")
         subscripts = [s for s in (rest.strip("_").replace("_", " "), places, *below) if s]
-        return cls(GREEK.get(word, word), ", ".join(subscripts), dots, found["primes"])
+        return cls(GREEK.get(word, word), ", ".join(subscripts), len(dots), found["primes"])
 
     def differentiated(self) -> Short:
         """Its time derivative."""
@@ -94,8 +94,7 @@ def shorten(names: Iterable[str]) -> dict[str, Short]:
 def with_owners(paths: Iterable[str]) -> Callable[[str], Short]:
     """How names are written that always say whose they are: ``heatPort.T`` is T with the index heatPort.
 
-    Arguments:
-        paths: names that are written together; what would look like others, beside ``T_heatPort``, is spelled out.
+    Of names that are written together, what would look like others, beside ``T_heatPort``, is spelled out.
     """
     looks = sorted((_with_owner(path), path) for path in paths)
     alike = {p for (a, one), (b, other) in pairwise(looks) if a == b for p in (one, other)}
@@ -105,24 +104,21 @@ def with_owners(paths: Iterable[str]) -> Callable[[str], Short]:
 
 def _with_owner(path: str) -> Short:
     """A name's letter, its last part up to the first underscore, and its index: the rest, and whose it is."""
-    if path.startswith("der(") and path.endswith(")"):
-        return _with_owner(path[4:-1]).differentiated()
+    *dots, path = antiderivatives(path)
     *owners, last = ("t" if path == "time" else path).split(".")
     word, prime, rest = last.partition("'")
     base, _, index = word.partition("_")
     if not base or not (index or owners):
         base, index = word, ""
     below = ", ".join(filter(None, (index, ".".join(owners))))
-    return Short(GREEK.get(base, base), below, primes=prime + rest)
+    return Short(GREEK.get(base, base), below, len(dots), prime + rest)
 
 
 def _candidates(name: str) -> Iterator[Short]:
     """Short names of growing length: without a path, with one part of it, with two and so on."""
-    dots, inner = 0, name
-    while inner.startswith("der(") and inner.endswith(")"):
-        inner, dots = inner[4:-1], dots + 1
+    *dots, inner = antiderivatives(name)
     *path, last = inner.split(".")
-    plain = replace(Short.of(last), dots=dots)
+    plain = replace(Short.of(last), dots=len(dots))
     parts = [p.replace("_", " ").replace("[", " ").replace("]", "") for p in reversed(path)]
     for count in range(min(len(parts), 2) + 1):
         for chosen in combinations(parts, count):

@@ -28,13 +28,9 @@ AHEAD = (0.0, *np.geomspace(1e-6, 1.0, 7))
 def explain_ahead(
     system: System, at: Callable[[ArrayLike, Array], Values], point: Values, ahead: float
 ) -> str | None:
-    """A sentence on an equation without a finite value at a point, or ahead of it along the states' derivatives.
+    """A sentence on an equation without a finite value at a point, or within some seconds along its derivatives.
 
-    Arguments:
-        system: the model.
-        at: (time, state) -> values.
-        point: where to begin.
-        ahead: how far to look [s].
+    ``at`` gives the values of the model at a time and state.
     """
     derivative = jnp.zeros_like(point.x)
     for h in AHEAD:
@@ -49,13 +45,7 @@ def explain_ahead(
 def warn_of_nonfinite(
     system: System, values: Values, read: Mapping[str, Float[Array, " n"]]
 ) -> None:
-    """Warn if a variable that is read is not finite everywhere.
-
-    Arguments:
-        system: the model.
-        values: its trajectory, n points.
-        read: variables by name.
-    """
+    """Warn if a variable that is read along a trajectory of n points is not finite everywhere."""
     if traced(values, read) or np.ndim(values.t) != 1:
         return
     bad = {n: ~np.isfinite(np.asarray(v)) for n, v in read.items()}

@@ -82,12 +82,9 @@ def _number(host: HostFunction) -> int:
 
 
 def on_host(function: Callable[[Any], Any], name: str, start: float) -> HostFunction | None:
-    """The function as one that Python calls, where JAX cannot trace it; None where it can.
+    """An input's function of time as one that Python calls, where JAX cannot trace it; None where it can.
 
-    Arguments:
-        function: of the time.
-        name: of the input.
-        start: a time at which it is tried, so that its errors come before the simulation.
+    It is tried at a time, so that its errors come before the simulation.
 
     Raises:
         DataError: for one that does not give a real number.

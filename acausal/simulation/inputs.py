@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
@@ -17,7 +17,7 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import array, compiled, is_real, traced
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
-from acausal.modeling import by_name
+from acausal.modeling import antiderivatives, by_name
 from acausal.simulation.host_function import on_host
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
     """
     if isinstance(given, Data) or is_data_frame(given):
         record = Data.of(given)
-        known = {form for name in system.inputs for form in _antiderivatives(name)}
+        known = {form for name in system.inputs for form in antiderivatives(name)}
         return record.select([n for n in record.signals if n in known]).for_system(system)
     first = system.inputs[0] if system.inputs else "name"
     return by_name(given, "inputs", f"inputs={{'{first}': ...}}, with {FORMS} for each")
@@ -182,14 +182,14 @@ def announce_inputs(system: System, given: Mapping[str, Any] | Data) -> None:
 def _sources(system: System, given: Mapping[str, Any] | Data) -> dict[str, str]:
     """By input, the name of what is given for it, or is its default: itself, or what it is a derivative of."""
     names, defaults = system.inputs, system.input_defaults
-    known = {form for name in names for form in _antiderivatives(name)}
+    known = {form for name in names for form in antiderivatives(name)}
     unknown = [n for n in given if n not in known]
     if unknown and not isinstance(given, Data):
         raise DataError(f"The model has no input {listing(unknown)}: {nearest(unknown[0], names)}")
     sources: dict[str, str] = {}
     missing: list[str] = []
     for name in names:
-        forms = tuple(_antiderivatives(name))
+        forms = antiderivatives(name)
         found = [form for form in forms if form in given]
         found += [form for form in forms if form in defaults]
         sources.update({name: found[0]} if found else {})
@@ -201,14 +201,6 @@ def _sources(system: System, given: Mapping[str, Any] | Data) -> dict[str, str]:
             f"No value for the model's input {listing(missing)}: give inputs={{'{missing[0]}': ...}}."
         )
     return sources
-
-
-def _antiderivatives(name: str) -> Iterator[str]:
-    """An input, and what it is a derivative of: ``der(der(u))``, ``der(u)``, ``u``."""
-    yield name
-    while name.startswith("der(") and name.endswith(")"):
-        name = name[4:-1]
-        yield name
 
 
 def _function(
@@ -281,7 +273,7 @@ def _reaching(name: str, function: TimeFunction, span: Span) -> TimeFunction:
 
 def _derived(name: str, source: str, function: TimeFunction) -> TimeFunction:
     """An input: the given function, or a derivative of it."""
-    times = list(_antiderivatives(name)).index(source)
+    times = antiderivatives(name).index(source)
     if not times:
         return function
     if isinstance(function, Constant):

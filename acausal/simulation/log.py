@@ -122,12 +122,7 @@ class Log(NamedTuple):
         after: tuple[Array, Array],
         grazes: Array,
     ) -> Log:
-        """The log with one more event, if it has happened.
-
-        Arguments:
-            happened: whether. t, which: as above.
-            before, after: states and discrete variables. grazes: as above.
-        """
+        """The log with one more event, if it has happened, with states and discrete variables before and after it."""
         t, before, after = lax.stop_gradient((t, before, after))
         k, m = jnp.where(happened, self.total, len(self.t)), len(self.before)
         row = jnp.minimum(k, m)

@@ -36,17 +36,9 @@ def animation(
     trace: str | None,
     caption: str,
 ) -> Animation:
-    """The shapes of all components along a trajectory.
+    """The shapes of all components along a trajectory; ``trace``, ``caption`` and errors as of `Solution.animation`.
 
-    Arguments:
-        system, packed: the model, and values of its parameters.
-        t: times [s].
-        read: gives variables at these times by name.
-        trace: the component whose way is shown at first; by default the one that moves farthest.
-        caption: what is shown.
-
-    Raises:
-        DataError: if no component has a shape, or ``trace`` is none that has a way.
+    ``read`` gives variables at its times by name.
     """
     from acausal.reporting import Animation, Moving
 

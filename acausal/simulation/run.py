@@ -124,10 +124,7 @@ class Run(NamedTuple):
     def refuse_broken(
         self, x: Float[Array | np.ndarray, "n n_states"], ts: Float[np.ndarray, " n"], name: str
     ) -> None:
-        """Refuse states that are `broken`.
-
-        Arguments:
-            x, ts: states and their times. name: of the method.
+        """Refuse states, at their times, that are `broken` by the method of some name.
 
         Raises:
             SimulationError: for them.
@@ -141,10 +138,6 @@ class Run(NamedTuple):
 
     def explain(self, at: Values, ahead: float) -> str:
         """Find the equation without a finite value at a point, or within some seconds along its derivative.
-
-        Arguments:
-            at: the point, from `at`.
-            ahead: how far to look [s].
 
         Returns:
             A sentence; an empty text where nothing is found, or where the state itself has run away.

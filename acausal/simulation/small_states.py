@@ -26,11 +26,7 @@ Simulated = Callable[[Float[np.ndarray, " n_states"]], Solution]
 
 
 def with_small_states(simulated: Simulated, n_states: int) -> Solution:
-    """A simulation with the usual tolerances; where all states of a unit stay small, with finer ones.
-
-    Arguments:
-        simulated: makes it, or several at once. n_states: of the model.
-    """
+    """One simulation, or several, with the usual tolerances; where all states of a unit stay small, with finer ones."""
     atol = np.full(n_states, ATOL)
     solution = simulated(atol)
     for _ in range(AGAIN):

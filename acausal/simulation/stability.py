@@ -34,11 +34,7 @@ ROUGH = 0.3
 def long_steps(system: System, values: Values, h: float, limit: float = FAR) -> str | None:
     """A sentence on steps of an explicit solver that are too long somewhere along a trajectory, or None.
 
-    Arguments:
-        system: the model.
-        values: its trajectory, n points; none of them traced.
-        h: the steps' length [s].
-        limit: steps times the rate of a damped mode that are too long.
+    Its n points are not traced; ``limit`` is steps times the rate of a damped mode that are too long.
     """
     damping, t = fastest_mode(system, values)
     if damping * h <= limit:
@@ -66,8 +62,7 @@ def is_rough(x: Float[np.ndarray, "n n_states"]) -> bool:
 def fastest_mode(system: System, values: Values) -> tuple[float, float]:
     """The rate of the fastest damped mode along a trajectory [1/s], and when [s]; 0 for what is not examined.
 
-    Arguments:
-        values: the trajectory, n points, with the same discrete variables at all of them; none of them traced.
+    Discrete variables are the same at all of its n points, none of which is traced.
     """
     if not 0 < len(system.states) <= LARGEST:
         return 0.0, 0.0
@@ -83,11 +78,7 @@ def fastest_mode(system: System, values: Values) -> tuple[float, float]:
 
 
 def modes(system: System, points: Values) -> NDArray[np.complex128] | None:
-    """Eigenvalues of the model linearized at n points, (n, n_states) [1/s]; None where it has no finite derivatives.
-
-    Arguments:
-        points: the values there, none of them traced.
-    """
+    """Eigenvalues of the model linearized at n points, (n, n_states) [1/s]; None where it has no finite derivatives."""
     jacobians = np.asarray(_jacobians(system, points))
     return np.linalg.eigvals(jacobians).astype(complex) if np.isfinite(jacobians).all() else None
 

@@ -19,10 +19,7 @@ REVERSE = 4
 def long_rows(rows: Integers, n_rows: int) -> Integers:
     """The few rows, in order, without which half as many derivatives do; a row as long as others is not among them.
 
-    A matrix needs at least as many colours as its longest row has entries.
-
-    Arguments:
-        rows: those of the entries.
+    A matrix needs at least as many colours as its longest row has entries, whose rows are given.
     """
     length = np.bincount(rows, minlength=n_rows)
     order = np.argsort(-length, kind="stable")
@@ -32,12 +29,9 @@ def long_rows(rows: Integers, n_rows: int) -> Integers:
 
 
 def color_columns(rows: Integers, columns: Integers, n_rows: int, n_columns: int) -> Integers:
-    """A colour for every column, counted from 0, shape (n_columns,).
+    """A colour for every column, counted from 0, shape (n_columns,), from the positions of the entries.
 
     The columns take the first colour that is free, those that meet most others first (Welsh & Powell 1967).
-
-    Arguments:
-        rows, columns: the positions of the entries.
     """
     order = np.lexsort((rows, columns))
     row_of = rows[order].tolist()

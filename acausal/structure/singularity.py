@@ -91,12 +91,7 @@ def _remedy(missing: bool, surplus: bool, floating: bool) -> str:
 
 
 def inputs_that_are_set(model: FlatModel, surplus: Sequence[tuple[Origin, int]]) -> str | None:
-    """A sentence on inputs of the model in equations that are too many, or None.
-
-    Arguments:
-        model: the singular model.
-        surplus: origin and component of every such equation.
-    """
+    """A sentence on inputs of a singular model in surplus equations, by their origins and components, or None."""
     inputs = set(model.inputs.tolist())
     found: dict[str, None] = {}
     for origin, component in surplus:

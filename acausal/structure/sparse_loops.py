@@ -84,10 +84,7 @@ class SparseLoop:
 def sparse_loop(
     system: Equations, members: Sequence[tuple[int, int]], parameters: np.ndarray
 ) -> SparseLoop:
-    """Group the equations of large loops, and find an order of elimination for the model's ``parameters``.
-
-    Arguments:
-        members: equations, each with an unknown.
+    """Group equations, each with an unknown, of large loops; find an order of elimination for ``parameters``.
 
     Raises:
         StructureError: if the equations depend on each other.

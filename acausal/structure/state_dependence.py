@@ -52,11 +52,7 @@ def jacobian_pattern(
 def dependence_pattern(
     reduced: ReducedModel, wanted: Integers, sources: Integers, most: int
 ) -> tuple[Integers, Integers] | None:
-    """The pairs (i, j) for which node ``wanted[i]`` depends on node ``sources[j]``; None if there are too many.
-
-    Arguments:
-        most: how many dependences may be listed, also of variables that are not wanted.
-    """
+    """The pairs (i, j) for which node ``wanted[i]`` depends on node ``sources[j]``; None for more than ``most``."""
     computations = [_COMPUTATION[type(step)](step) for step in reduced.steps]
     return dependence(computations, sources, wanted, len(reduced.derivative), most)
 

@@ -25,11 +25,7 @@ def tearing_pays(
     vanishing: set[tuple[int, int]],
     parameters: np.ndarray,
 ) -> bool:
-    """Whether a loop is better torn than solved with its sparse Jacobian.
-
-    Arguments:
-        vanishing: see `Equations.vanishing`. ``parameters``: the model's own values.
-    """
+    """Whether a loop is better torn than solved with its sparse Jacobian, with the model's own parameters."""
     block = block_of(system, equations, unknowns, vanishing)
     torn = torn_block(system, [block])
     if len(torn.tears) > min(FEW, COST // len(unknowns)):

@@ -69,15 +69,9 @@ def build_problem(
     options: FitOptions,
     streamed: Streamed | None = None,
 ) -> Problem:
-    """The problem of a training.
+    """The problem of a training, from all parameters where it starts and records by name, in the model's units.
 
-    Arguments:
-        system: the model.
-        data: records by name, in the model's units.
-        targets: names of the variables to fit.
-        params: all parameters where training starts.
-        options: how to train.
-        streamed: where these are only the beginnings of the records, all of them.
+    Of a stream these are only the beginnings of the records; ``streamed`` has all of them.
 
     Raises:
         DataError: if the data are not sufficient for the training.
@@ -191,22 +185,18 @@ def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
 def trained_networks(
     system: System, train: Iterable[str] | None, params: Mapping[str, Any]
 ) -> tuple[str, ...]:
-    """The networks to train: by default all that an equation calls."""
-    found = [name for name in networks(params) if _is_called(system, name)]
+    """The networks to train: by default all that an equation calls; options of components may leave some out."""
+    layout, called = system.layout, set[int]()
+    for group in system.flat.equations():
+        called.update(layout.module_of[group.modules].ravel().tolist())
+    own = dict(zip(layout.module_names, layout.own_modules, strict=True))
+    found = [name for name in networks(params) if own[name] in called]
     if train is None:
         return tuple(found)
     chosen = names_in(train, "train")
     for name in chosen:
         known_name(name, found, "There is no network", TrainingError, " to train:")
     return chosen
-
-
-def _is_called(system: System, network: str) -> bool:
-    """Whether an equation calls a network; an option of its component may have left it out."""
-    layout, flat = system.layout, system.flat
-    target = layout.own_modules[layout.module_names.index(network)]
-    groups = (*flat.groups, *(stated.group for stated in flat.events.all))
-    return any(bool((layout.module_of[group.modules] == target).any()) for group in groups)
 
 
 def _check_targets(system: System, targets: tuple[str, ...]) -> None:

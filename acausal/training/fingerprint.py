@@ -54,11 +54,7 @@ def fingerprint(
     """A digest of everything that determines the course of trainings, by argument of `acausal.fit`.
 
     Arguments:
-        problem: the problem, with the start of the first training.
-        segments: of the strategy.
-        seeds: one for each training.
-        others: where all but the first training start.
-        held: what is held out, if anything is.
+        problem: the problem, with the start of the first training. others: where the others start.
         data: all signals of the records; the start of trained states may follow from one that is not a target.
     """
     fields = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}

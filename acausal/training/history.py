@@ -144,12 +144,7 @@ class Evaluation(NamedTuple):
 
 
 class LogContent(NamedTuple):
-    """The content of a `TrainingLog` at some moment.
-
-    Attributes:
-        chunks: columns of some updates each, by name.
-        evaluations: at some moments.
-    """
+    """The content of a `TrainingLog`: columns by name of some updates each, and evaluations."""
 
     chunks: tuple[dict[str, np.ndarray], ...]
     evaluations: tuple[Evaluation, ...]

@@ -27,14 +27,7 @@ MOST = 4
 
 
 def too_many(log: TrainingLog, rejected: int, problem: Problem, tried: Trainable) -> str | None:
-    """A sentence on updates that were rejected in a row, if there are too many of them.
-
-    Arguments:
-        log: of the training.
-        rejected: how many.
-        problem: over whole records.
-        tried: what the last of them tried.
-    """
+    """A sentence on updates that were rejected in a row, if there are too many of them; ``tried`` was the last one."""
     if rejected < REJECTIONS:
         return None
     first = log.epochs - rejected

@@ -202,12 +202,7 @@ def starts_of(problem: Problem, starts: Sequence[Trainable], trained: Sequence[T
 
 
 class Rung(NamedTuple):
-    """A moment at which only the best go on.
-
-    Attributes:
-        at: planned updates until then.
-        keep: how many go on.
-    """
+    """So many planned updates, after which only the best go on, and how many."""
 
     at: int
     keep: int

@@ -186,12 +186,7 @@ class StageResult(NamedTuple):
 def stage_results(
     history: History, segments: Sequence[Segment], linear: StageResult | None
 ) -> tuple[StageResult, ...]:
-    """The stages that a training has gone through.
-
-    Arguments:
-        history, segments: of the training.
-        linear: the linear laws that it started from, if there are any.
-    """
+    """The stages that a training has gone through, behind the linear laws that it started from, if there are any."""
     found = [] if linear is None else [linear]
     epochs, losses = history.full_loss.T
     for i, segment in enumerate(segments):

@@ -34,9 +34,6 @@ def look_at(
 ) -> tuple[dict[str, Data], FitOptions, Streamed]:
     """The beginnings of the records to train on, the options with held-out records in memory, and all else.
 
-    Arguments:
-        system, stream, targets, options: of the training.
-
     Raises:
         DataError: for a record that cannot be trained on.
         TrainingError: for an option that needs whole records.

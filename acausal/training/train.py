@@ -82,18 +82,32 @@ def begins(training: Training) -> tuple[list[Problem], list[Trainable]]:
 
 def train_together(training: Training, starts: Sequence[Trainable]) -> tuple[Trained, ...]:
     """Train from all starts in one program here, with checkpoints."""
-    problem, plan, options = training.problem, training.segments, training.options
-    identity: dict[str, str] = {}
+    options, updates = training.options, sum(segment.epochs for segment in training.segments)
     (path,) = _checkpoint_files(options, 1)
+    ends, seeds = halving(options.starts, updates), _seeds(training)
+    return _kept(training, starts, seeds, path, ends, (training.seeds, starts[1:]))
+
+
+def _kept(
+    training: Training,
+    starts: Sequence[Trainable],
+    seeds: Sequence[int],
+    path: Path | None,
+    ends: Halving,
+    differs: tuple[Sequence[int], Sequence[Trainable]],
+) -> tuple[Trained, ...]:
+    """Train here with a checkpoint, from which this goes on if there is one.
+
+    The checkpoint knows its training by the seeds and starts in which this ``differs`` from others.
+    """
+    identity: dict[str, str] = {}
     if path is not None:
-        identity = fingerprint(
-            problem, plan, training.seeds, starts[1:], training.held, training.records
-        )
+        problem, plan = training.problem, training.segments
+        identity = fingerprint(problem, plan, *differs, training.held, training.records)
     stored = None if path is None or not path.exists() else checkpoints.read(path, identity)
     path = path if jax.process_index() == 0 else None
-    with checkpoints.keeping(path, options.checkpoint_every, identity) as keep:
-        keys = [jax.random.key(seed) for seed in _seeds(training)]
-        ends = halving(options.starts, sum(segment.epochs for segment in plan))
+    with checkpoints.keeping(path, training.options.checkpoint_every, identity) as keep:
+        keys = [jax.random.key(seed) for seed in seeds]
         return train_here(training, starts, keys, keep, stored, ends)
 
 
@@ -124,16 +138,8 @@ def _seeds(training: Training) -> list[int]:
 
 def _alone(training: Training, task: Alone) -> Trained:
     own = training if task.part is None else training.without(task.part)
-    identity: dict[str, str] = {}
-    stored, path = None, task.checkpoint
-    if path is not None:
-        identity = fingerprint(
-            own.problem, own.segments, (task.seed,), (task.start,), own.held, own.records
-        )
-        stored = checkpoints.read(path, identity) if path.exists() else None
-    with checkpoints.keeping(path, own.options.checkpoint_every, identity) as keep:
-        key = jax.random.key(task.seed)
-        (found,) = train_here(own, [task.start], [key], keep, stored, halving(1, 0))
+    starts, seeds = (task.start,), (task.seed,)
+    (found,) = _kept(own, starts, seeds, task.checkpoint, halving(1, 0), (seeds, starts))
     return found
 
 

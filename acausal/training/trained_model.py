@@ -243,14 +243,10 @@ class TrainedModel:
 
 
 def out_of_range(record: RecordFit, model: TrainedModel) -> str:
-    """A sentence on what of a record is outside of what a model was trained on; empty where nothing is.
+    """A sentence on what of a predicted record is outside of what a model was trained on; empty where nothing is.
 
     Inputs, targets and the arguments of networks count, at samples where a target is measured, from `OUTSIDE` of the
     range in training on.
-
-    Arguments:
-        record: as predicted by the trained model.
-        model: with the records of its training.
     """
     seen = [_measured(r) for r in model.records.values()]
     found: list[str] = []

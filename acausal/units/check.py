@@ -144,7 +144,7 @@ def _dimension(unit: str) -> Dimension | None:
 
 def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
     found: dict[tuple[str, str], list[str]] = {}
-    for stated in (*flat.groups, *flat.initial, *_at_events(flat)):
+    for stated in flat.equations(initial=True):
         if stated.components[0] < 0:  # a connection
             continue
         group = _with_numbers(flat, stated, least=True)
@@ -163,15 +163,6 @@ def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
         first = f"{cls} '{names[0]}'" if names[0] else cls
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""
         yield f"{first}{more}: {wrong}"
-
-
-def _at_events(flat: FlatModel) -> Iterator[EquationGroup]:
-    """What holds at events as equations: conditions, discrete variables and what they become, states that jump."""
-    events = flat.events
-    yield from (guard.group for guard in events.guards)
-    for update in (*events.updates, *events.jumps):
-        name = flat.layout.variable(int(update.targets[0])).rpartition(".")[2]
-        yield update.as_equation(name)
 
 
 def _with_numbers(flat: FlatModel, group: EquationGroup, least: bool) -> EquationGroup:

@@ -53,10 +53,9 @@ class InSI:
 
 
 def in_si(unit: str) -> InSI | None:
-    """A unit in base units; None for what is not a unit, has fractions as exponents, or an unknown factor.
+    """A unit such as ``"N.m/rad"`` in base units, radians as pure numbers.
 
-    Arguments:
-        unit: for example ``"N.m/rad"``; radians count as pure numbers.
+    None for what is not a unit, has fractions as exponents, or an unknown factor.
     """
     try:
         measured = dimension(unit)

@@ -5,7 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from acausal.codegen.dense import FEW, solve_linear, solve_nonlinear
+from acausal.codegen.dense_loop import FEW, solve_block
 from tests.support.slow import some_slow
 
 
@@ -18,7 +18,7 @@ def plain(residual):
 def test_linear(n):
     rng = np.random.default_rng(n)
     a, b = rng.normal(size=(n, n)), rng.normal(size=n)
-    solve = lambda a, b: solve_linear(plain(lambda z: a @ z - b), jnp.ones(n))  # noqa: E731
+    solve = lambda a, b: solve_block(plain(lambda z: a @ z - b), jnp.ones(n), is_linear=True)  # noqa: E731
     np.testing.assert_allclose(jax.jit(solve)(a, b), np.linalg.solve(a, b), rtol=1e-10)
     ours, theirs = (jax.jit(jax.jacobian(f))(jnp.asarray(a), b) for f in (solve, jnp.linalg.solve))
     np.testing.assert_allclose(ours, theirs, rtol=1e-8, atol=1e-10)
@@ -38,7 +38,7 @@ def test_linear(n):
     ],
 )
 def test_nonlinear(residual, guess, root):
-    found = solve_nonlinear(plain(residual), jnp.array([guess]))
+    found = solve_block(plain(residual), jnp.array([guess]))
     np.testing.assert_allclose(found, [root], rtol=1e-8, atol=1e-7)
 
 
@@ -46,7 +46,7 @@ def test_several_unknowns():
     def residual(z):
         return jnp.array([z[0] ** 2 + z[1] ** 2 - 4, z[0] * z[1] - 1])
 
-    found = solve_nonlinear(plain(residual), jnp.array([2.0, 0.3]))
+    found = solve_block(plain(residual), jnp.array([2.0, 0.3]))
     np.testing.assert_allclose(residual(found), 0.0, atol=1e-12)
 
 
@@ -54,12 +54,12 @@ def test_several_unknowns():
     "residual", [lambda z: z**2 + 1, lambda z: z * jnp.nan, lambda z: jnp.ones_like(z)]
 )
 def test_without_a_root_the_result_is_nan(residual):
-    assert np.isnan(solve_nonlinear(plain(residual), jnp.array([0.7]))).all()
+    assert np.isnan(solve_block(plain(residual), jnp.array([0.7]))).all()
 
 
 def test_gradients_of_first_and_second_order():
     def root(p):  # z + exp(z) = p
-        return solve_nonlinear(plain(lambda z: z + jnp.exp(z) - p), jnp.zeros(1))[0]
+        return solve_block(plain(lambda z: z + jnp.exp(z) - p), jnp.zeros(1))[0]
 
     z = float(root(2.0))
     first = 1 / (1 + np.exp(z))
@@ -70,5 +70,5 @@ def test_gradients_of_first_and_second_order():
 
 def test_a_batch_converges_each_by_itself():
     p = jnp.array([0.1, 4.0, 1e6])
-    roots = jax.vmap(lambda q: solve_nonlinear(plain(lambda z: z**2 - q), jnp.array([0.5])))(p)
+    roots = jax.vmap(lambda q: solve_block(plain(lambda z: z**2 - q), jnp.array([0.5])))(p)
     np.testing.assert_allclose(roots[:, 0], np.sqrt(p), rtol=1e-9)

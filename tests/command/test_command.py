@@ -395,6 +395,16 @@ def test_a_number_that_is_too_large_is_none(typed) -> None:
     assert "'mass.m=1e400' is not NAME=NUMBER, such as mass.m=2.5" in err
 
 
+@pytest.mark.parametrize(
+    ("words", "form"),
+    [(("--replace", "mass"), "PART=CLASS"), (("--rename", "a="), "COLUMN=NAME")],
+)
+def test_a_pair_without_a_value_is_refused_with_its_form(typed, words, form: str) -> None:
+    code, _, err = typed("simulate", "oscillator.json", *PUSH, *words)
+    assert code == 2
+    assert f"'{words[1]}' is not {form}" in err
+
+
 # -- training -----------------------------------------------------------------------------------------
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import acausal as ac
 from acausal.reporting import plot_over_time
-from acausal.reporting.axes import new_axes
+from acausal.reporting.plot import new_axes
 from tests.support.paths import ROOT
 
 

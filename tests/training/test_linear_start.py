@@ -234,7 +234,8 @@ def test_a_positive_law_begins_at_a_constant(tmp_path: Path) -> None:
     assert lacks_scales(own)
     shape = linear_shape(own)
     assert shape.positive
-    assert linear_module(shape, Affine((), 1e-3))(3.0) == pytest.approx(1e-3)
+    constant = replace(linear_module(shape), offset=jnp.asarray(1e-3))
+    assert constant(3.0) == pytest.approx(1e-3)
     net = with_scales(own, Scales((0.0,), (200.0,), 1.0), Affine((), 1e-3))
     assert "positive" in kept_promises(net)
     values = [float(net(w)) for w in (0.0, 100.0, 200.0)]

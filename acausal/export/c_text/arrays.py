@@ -93,11 +93,7 @@ def uniform(value: Expr, shape: tuple[int, ...]) -> CArray:
 
 
 def constant(array: np.ndarray, table: Callable[[np.ndarray], Buffer]) -> CArray:
-    """A known array: one number, a formula of the index, or a table.
-
-    Arguments:
-        table: a constant buffer that holds these values.
-    """
+    """A known array: one number, a formula of the index, or ``table``, a constant buffer that holds these values."""
     kind = kind_of(array.dtype)
     flat = array.reshape(-1)
     if flat.size and (flat == flat[0]).all():

@@ -130,11 +130,7 @@ def _places(
 
 
 def without_unused(statements: Sequence[Statement], results: Collection[str]) -> list[Statement]:
-    """The statements that a result depends on.
-
-    Arguments:
-        statements: of a function. results: the names of the arrays that it is to fill.
-    """
+    """The statements of a function that its results depend on, by the names of the arrays that it is to fill."""
     kept = list(statements)
     while True:
         live = _live(kept, results)

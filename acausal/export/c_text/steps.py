@@ -25,11 +25,7 @@ def scheme_named(name: str) -> Tableau:
 
 
 def step_lines(scheme: Tableau, name: str) -> Iterator[str]:
-    """The body of a step: ``m->x`` and ``m->time`` move on by ``h``; inputs run from ``m->u`` to ``u_end``.
-
-    Arguments:
-        name: of the model.
-    """
+    """The body of a step: ``m->x`` and ``m->time`` move on by ``h``; inputs run from ``m->u`` to ``u_end``."""
     yield "    const real t = m->time;"
     yield "    const real *const begin = m->u;"
     yield "    const real *const end = u_end ? u_end : m->u;"
@@ -44,9 +40,6 @@ def attempt_lines(scheme: Tableau, name: str) -> Iterator[str]:
     """The body of a step that may be made again: from ``m->x`` to ``m->e.x_end``, with the rates at both ends.
 
     Inputs run from ``m->e.u_from`` to ``m->e.u_to``.
-
-    Arguments:
-        name: of the model.
     """
     yield "    const real *const begin = m->e.u_from;"
     yield "    const real *const end = m->e.u_to;"

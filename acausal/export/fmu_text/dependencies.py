@@ -32,10 +32,8 @@ def dependencies(
 ) -> dict[int, list[int]] | None:
     """For each derivative and each output the references of the states and inputs that it reads, and perhaps time.
 
-    None if there are too many to be listed: then each depends on all.
-
-    Arguments:
-        watched: nodes that tell whether networks leave their ranges.
+    None if there are too many to be listed: then each depends on all. ``watched`` nodes tell whether networks leave
+    their ranges.
     """
     outputs = _places(text.outputs)
     nodes, _ = system.nodes_of(outputs)

@@ -164,11 +164,7 @@ class ModelDescription:
 
 
 def _add_units(root: Element, units: Iterable[str]) -> None:
-    """Append the definitions of units, in base units where these are known.
-
-    Arguments:
-        units: texts of units; those that are empty have no definition.
-    """
+    """Append the definitions of units, in base units where these are known; empty texts have no definition."""
     named = sorted({u for u in units if u})
     if not named:
         return
@@ -185,11 +181,7 @@ def _add_units(root: Element, units: Iterable[str]) -> None:
 
 
 def documentation(description: ModelDescription, about: str) -> bytes:
-    """``documentation/index.html``: what the model is, and a table of its variables.
-
-    Arguments:
-        about: the description of the model.
-    """
+    """``documentation/index.html``: what the model is about, and a table of its variables."""
     rows = "".join(
         f"<tr><td>{escape(v.name)}</td><td>{v.causality}</td><td>{escape(v.unit)}</td><td>{escape(v.doc)}</td></tr>\n"
         for v in description.variables

@@ -250,10 +250,6 @@ def element(name: str, index: Sequence[int]) -> str:
 
 
 def leaf(name: str, module: str) -> str:
-    """An array of a network, with its layers counted from 1: ``nn.net.weights[0]`` is ``nn.net.weights[1]``.
-
-    Arguments:
-        name: the array's. module: the name of its network, with which it begins.
-    """
+    """An array of a network, with its layers counted from 1: ``nn.net.weights[0]`` is ``nn.net.weights[1]``."""
     rest = re.sub(r"\['(\w+)'\]", r".\1", name[len(module) :])
     return module + re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", rest)

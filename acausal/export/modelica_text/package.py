@@ -439,11 +439,7 @@ def _derivatives(stated: Eq) -> int:
 def package_of(
     model: Component, title: str, about: str, package: Package, inputs: Sequence[str]
 ) -> str:
-    """The text of a package whose last class is the model.
-
-    Arguments:
-        title: name of the package. about: its description. inputs: dotted names of the model's open inputs.
-    """
+    """The text of a package, with a description, whose last class is the model; open inputs have dotted names."""
     package.elements |= names_in_tree(model)
     open_inputs = [name for name in inputs if "." in name and not name.startswith("der(")]
     package.model(model, model._node.title or type(model).__name__, open_inputs)

@@ -9,7 +9,7 @@ from typing import Any
 from acausal.export.modelica_text.declared import Flat
 from acausal.export.modelica_text.spelling import array, number
 from acausal.modeling import Component, Option, Variable
-from acausal.netlist import BARE_CONSTANTS, Library, Writer, installed
+from acausal.netlist import BARE_CONSTANTS, Writer, installed
 
 TYPES: dict[str, str] = {
     **dict.fromkeys(("never", "avoid", "default", "prefer", "always"), "StateSelect"),
@@ -45,14 +45,11 @@ def standard_part(model: Component, name: str) -> tuple[str, Flat] | None:
 
 def standard_connector(kind: type, name: str) -> str | None:
     """Modelica's name of a connector or signal; of several, that which fits the name of the connector."""
-    names = [n for b in installed() for n in _names(b, kind) if n.startswith("Modelica.")]
+    known = [n for b in installed() for n in b.modelica_names if b.find(n) is kind]
+    names = [n for n in known if n.startswith("Modelica.")]
     ending = {"p": "PositivePin", "n": "NegativePin"}.get(name, name[-2:])
     fitting = [n for n in names if n.endswith(ending)] if name else []
     return next(iter([*fitting, *names]), None)
-
-
-def _names(library: Library, kind: type) -> list[str]:
-    return [n for n in library.modelica_names if library.find(n) is kind]
 
 
 def _without_names_of_records(text: str, model: Component) -> str:

@@ -97,13 +97,7 @@ TABLE: dict[str, Rule] = {**arithmetic.RULES, **arrays.RULES, **control.RULES}
 
 
 def lower(graph: OnnxGraph, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Value]:
-    """Add the nodes of a jaxpr; what is known already is computed now.
-
-    Arguments:
-        values: its arguments.
-
-    Returns:
-        Its results.
+    """The results of a jaxpr of some values, whose nodes are added; what is known already is computed now.
 
     Raises:
         DataError: for an operation that has no counterpart in ONNX.

@@ -47,12 +47,7 @@ NUMERIC = frozenset("0123456789.+-−±%einfna ")
 
 
 def render(content: PageContent, library: str | None = None) -> str:
-    """The page as a text.
-
-    Arguments:
-        content: what it tells.
-        library: the plot library; by default the one that is installed, and an empty text for none.
-    """
+    """The page as a text, with the plot library that is installed; an empty text stands for none."""
     found = library
     if library is None:
         found = plot_library() if content.plots else ""

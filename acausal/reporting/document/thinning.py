@@ -15,10 +15,6 @@ def kept_rows(columns: Sequence[Float[np.ndarray, " n"]], most: int) -> Int[np.n
 
     Half of them lie at equal distances. The others are where a curve is lowest or highest within a stretch, so that no
     peak is lost. What is no number is skipped, but for a gap of a whole stretch.
-
-    Arguments:
-        columns: the curves.
-        most: how many rows stay.
     """
     n = len(columns[0]) if columns else 0
     stretches = max(1, most // (4 * max(1, len(columns))))

@@ -109,17 +109,9 @@ def automatic(
     params: Sequence[dict[str, Any]],
     options: FitOptions,
 ) -> Automatic:
-    """Choose scales, a start, steps and stages.
+    """Choose scales, a start, steps and stages; what the user's options say stays. Errors as of `build_problem`.
 
     Everything follows from the arguments alone, so that a training that is resumed chooses the same.
-
-    Arguments:
-        system, records, targets: as of `build_problem`.
-        params: where each training would start.
-        options: those of the user; what they say stays.
-
-    Raises:
-        DataError, TrainingError: as `build_problem` does.
     """
     names = trained_networks(system, options.train, params[0])
     shapes = {n: linear_shape(params[0][n]) for n in names if lacks_scales(params[0][n])}

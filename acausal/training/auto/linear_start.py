@@ -63,12 +63,10 @@ def nothing(*inputs: Any) -> Array:
     return jnp.zeros(())
 
 
-def linear_module(shape: LawShape, law: Affine | None = None) -> BesideLinear | BesideQuadratic:
-    """A linear law, or the energy of one; by default zero."""
-    slope = np.zeros(shape.inputs) if law is None else np.asarray(law.slope)
-    offset = None if shape.through_zero else jnp.asarray(law.offset if law else 0.0, float)
+def linear_module(shape: LawShape) -> BesideLinear | BesideQuadratic:
+    """A linear law, or the energy of one, that is zero."""
     kind = BesideQuadratic if shape.energy else BesideLinear
-    return kind(nothing, jnp.asarray(slope, float), offset)
+    return kind(nothing, jnp.zeros(shape.inputs), None if shape.through_zero else jnp.zeros(()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,9 +147,6 @@ def with_constants_at_zero(
     A current through a coil whose start is not measured does for a constant of the current beside it, and a force of
     one law for that of another one. So the constant is known less well than the law is large, and without it the loss
     and the starts are as good as with it. Laws of several inputs, at which zero says little, keep theirs.
-
-    Arguments:
-        start: from `linear_start`. shapes: as there. scales: of the laws, by network.
     """
     given, objective, held, loose = start, start.problem, list[int](), list[str]()
     places = _places(objective, shapes)

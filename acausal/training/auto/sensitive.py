@@ -51,12 +51,7 @@ def length_of_pieces(
 ) -> float:
     """In seconds, how long a model is about insensitive to its start, by the fastest growth in one of its records.
 
-    Arguments:
-        problem, trainable, simulated: as a training has left them.
-        part: of the longest record, how long a piece is at most.
-
-    Returns:
-        The length; infinite where the records are too short.
+    It is at most this part of the longest record; infinite where the records are too short.
     """
     records = problem.records
     rows, times = [records.rows_of(i) for i in range(records.count)], np.asarray(records.steps.t)

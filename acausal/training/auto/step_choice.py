@@ -63,13 +63,10 @@ def allowed_error(loss: float) -> float:
 
 
 def tried_steps(options: FitOptions, events: bool) -> Iterator[StepChoice]:
-    """The steps with which a start is sought, until one explains something.
+    """The steps with which a start is sought, until one explains something; a user's own are the only ones.
 
     In a model with events they are implicit: what it switches is often stiff, as an ideal diode that blocks is, and
     explicit steps would stumble from event to event.
-
-    Arguments:
-        options: those of the user. events: whether the model has any.
     """
     given = (options.solver, options.rtol, options.atol)
     if any(value is not None for value in given):
@@ -117,13 +114,10 @@ def chosen_steps(
 
 
 def finer_steps(step: StepChoice, error: float, loss: float) -> StepChoice | None:
-    """Finer steps, where those of a training err by more than they may; else ``None``.
+    """Finer steps, where those of a training err by more than they may beside its loss; else ``None``.
 
     A law is often steeper than the linear one along which steps were chosen. Where very many were needed, they are
     implicit.
-
-    Arguments:
-        step: that was chosen. error: of it at the end of the training. loss: that it reached.
     """
     allowed = allowed_error(loss)
     if step.solver is None or not allowed < error < np.inf:

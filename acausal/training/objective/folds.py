@@ -110,12 +110,6 @@ def judged_on(
     A record that is left out starts as ``x0`` says, where that is trained from its measured state, and with the
     parameters that are expected of other records. In blocks of time everything is known from the rest of the record.
 
-    Arguments:
-        problem: of a training with all samples.
-        fold: what it leaves out.
-        data: all records, in the model's units.
-        x0: of the training.
-
     Raises:
         DataError: if a record lacks the state at its start.
     """

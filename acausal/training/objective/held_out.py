@@ -148,13 +148,10 @@ def of_others(x0: InitialState, records: Mapping[str, Data]) -> InitialState:
 def over(
     problem: Problem, data: Mapping[str, Data], x0: InitialState, *, measured: bool = True
 ) -> Problem:
-    """The same model over other records, with steps that are no longer.
+    """The same model over other records, in its units, with steps that are no longer.
 
-    Arguments:
-        problem: the training. Errors stay relative to the standard deviations of its data.
-        data: the other records, in the model's units.
-        x0: the states at their starts.
-        measured: whether the data need samples of every target.
+    Errors stay relative to the standard deviations of the training's data. ``x0`` says where records start,
+    ``measured`` whether the data need samples of every target.
     """
     system = problem.system
     starts = first_states(system, data, x0, trained=False)

@@ -20,6 +20,7 @@ from jaxtyping import Array, Float, Int
 from acausal._jax import array
 from acausal.data import FRACTIONS, Signal, deviation_from_line, polynomial_coefficients
 from acausal.errors import TrainingError
+from acausal.modeling import antiderivatives
 from acausal.simulation import (
     Parts,
     Samples,
@@ -106,13 +107,7 @@ class DelayedInputs(eqx.Module):
     def __call__(
         self, steps: Steps, record: Int[Array, "*n"], times: Mapping[str, Float[Array, ""]]
     ) -> Steps:
-        """The same steps with inputs that come later.
-
-        Arguments:
-            steps: of the integration.
-            record: of every step, or of all.
-            times: the delays in seconds, by name.
-        """
+        """The same steps, of one record or each of its own, with inputs that come later, by seconds by name."""
         if not self.columns:
             return steps
         samples, n = steps.inputs, len(steps.t)
@@ -198,10 +193,8 @@ def delayed_inputs(
     functions_of = list(zip(*functions, strict=True))
     found: dict[int, tuple[str, Pieces]] = {}
     for column, name in enumerate(inputs):
-        source = name
-        while source not in timing.delays and source.startswith("der("):
-            source = source[4:-1]
-        if source not in timing.delays:
+        source = next((form for form in antiderivatives(name) if form in timing.delays), None)
+        if source is None:
             continue
         signals = functions_of[column]
         if delay_of(source) in timing.trained and any(

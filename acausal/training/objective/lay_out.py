@@ -36,12 +36,7 @@ ALIKE = 1e-6
 
 
 class Grid(NamedTuple):
-    """Where the steps of a record begin.
-
-    Attributes:
-        t: every row's time.
-        sampled: the rows that hold samples.
-    """
+    """The times of the rows of a record, where its steps begin, and which rows hold samples."""
 
     t: Float[np.ndarray, " n"]
     sampled: np.ndarray

@@ -85,13 +85,7 @@ def shooting_states(
     rows: Int[np.ndarray, " n_parts"],
     of: Int[np.ndarray, " N"],
 ) -> ShootingStates:
-    """Initial states of all parts on trajectories; the states' deviations along them are their scales.
-
-    Arguments:
-        trajectory: the states at every row.
-        rows: at which parts begin.
-        of: the record of every row.
-    """
+    """Initial states of parts, which begin at some rows of trajectories; deviations along these are their scales."""
     deviation = trajectory.std(axis=0)
     largest = np.abs(trajectory).max(axis=0)
     scale = np.where(deviation > CONSTANT * largest, deviation, np.where(largest > 0, largest, 1.0))

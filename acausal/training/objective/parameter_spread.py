@@ -59,12 +59,7 @@ def parameter_spread(
     params: Mapping[str, Any],
     declared: Callable[[str], tuple[float, float]],
 ) -> ParameterSpread:
-    """Check a user's deviations, in the units of the parameters.
-
-    Arguments:
-        given: the deviations.
-        params: all parameters where training starts.
-        declared: the bounds that a parameter declares.
+    """Check a user's deviations, in the units of the parameters, against the bounds that these declare.
 
     Raises:
         TrainingError: for a name that is not a numeric parameter, or a deviation that is not positive or leads out of

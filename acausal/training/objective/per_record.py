@@ -99,12 +99,6 @@ def per_record(
 ) -> PerRecord:
     """Check a user's choice: by parameter the standard deviation between records, or ``None`` for free values.
 
-    Arguments:
-        system: the model.
-        given: the choice.
-        params: all parameters where training starts.
-        records: how many there are.
-
     Raises:
         TrainingError: for a name that is not a numeric parameter, or what is not a deviation.
     """

@@ -314,13 +314,9 @@ class Problem(Simulator):
         return {name: at(name) for name in self.networks}
 
     def predict(self, trainable: Trainable, params: dict[str, Any]) -> Float[Array, "N n_targets"]:
-        """The targets at every row of one simulation with other parameters.
+        """The targets at every row of one simulation with other parameters; ``trainable`` gives what differs by record.
 
         It can be differentiated in forward mode.
-
-        Arguments:
-            trainable: gives what differs between records.
-            params: physical values and networks.
         """
         return replace(self, direct=True)._all(params, trainable).y
 

@@ -120,12 +120,7 @@ class Sequences(eqx.Module):
 
     @compiled
     def draw(self, key: PRNGKeyArray, update: int | Int[Array, ""] = 0) -> Batch:
-        """A batch; the same key gives the same batch.
-
-        Arguments:
-            key: of the update.
-            update: its number, by which sequences are found that were read before.
-        """
+        """A batch; the same key gives the same batch. What was read before is found by the number of the update."""
         for_start, for_points = jax.random.split(key)
         points = None
         if (count := self.points) is not None:

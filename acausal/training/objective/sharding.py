@@ -79,13 +79,9 @@ def shard(
     same: Same,
     rows: Rows,
 ) -> Float[Array, " batch"]:
-    """The function's rows, of which each device computes its share; all devices get all rows.
+    """The rows of a function (same, rows) -> results, of which each device computes its share; all get all rows.
 
-    Arguments:
-        function: (same, rows) -> results.
-        mesh: the devices.
-        same: a pytree of arrays that all devices have.
-        rows: a pytree of arrays with a leading axis of the batch.
+    All devices have the arrays of ``same``; those of ``rows`` have a leading axis of the batch.
     """
     if mesh is None:
         return function(same, rows)

@@ -41,11 +41,8 @@ def start_prior(
 ) -> StartPrior | None:
     """What is known of the starts of records; NaN for states that are not measured; ``None`` where all are exact.
 
-    Arguments:
-        states: names of the model's states.
-        data: records by name.
-        x0: where records start. ``"auto"`` takes what is measured within its noise. Values by name are exact, and so is
-            what is measured beside them.
+    ``x0="auto"`` takes what is measured within its noise. Values by name are exact, and so is what is measured beside
+    them.
     """
 
     def scale(record: Data, name: str, given: Mapping[str, float] | None) -> float:

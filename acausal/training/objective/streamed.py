@@ -152,12 +152,6 @@ def survey(
 ) -> tuple[dict[str, Data], Streamed]:
     """Read every record once; returns their beginnings, in the model's units, and what is to be known of the rest.
 
-    Arguments:
-        system: the model, whose states sequences start from.
-        stream: the records.
-        targets: the variables to fit.
-        dtype: of the integration.
-
     Raises:
         DataError: for a record that cannot be read, is too short, or lacks a target.
     """

@@ -19,6 +19,7 @@ from jaxtyping import Array, Float
 from acausal._jax import is_number
 from acausal.data import Data
 from acausal.errors import TrainingError, known_name, need_flag, shown
+from acausal.modeling import antiderivatives
 from acausal.training.objective.modifiers import Bounded, Modifier, Modifiers
 
 SAMPLES = 20
@@ -121,21 +122,16 @@ def timing(
 ) -> tuple[Timing, Modifiers]:
     """Check a user's choice; the times, and how those that are trained may move.
 
-    Arguments:
-        delays: by input or target.
-        lags: by target.
-        data: the records; their sample time gives the default limits.
-        inputs: names of the model's inputs.
-        targets: names of what is compared.
+    The sample time of the records gives the default limits.
 
     Raises:
-        TrainingError: for a name that is neither, or a time that is none.
+        TrainingError: for a name that is neither an input nor a target, or a time that is none.
     """
     limit = SAMPLES * float(np.median([np.diff(d.time).mean() for d in data]))
     late, slow = dict(delays or {}), dict(lags or {})
     targets = list(targets)
     for what, chosen, known in (
-        ("delays", late, [*map(_measured, inputs), *targets]),
+        ("delays", late, [*(antiderivatives(n)[-1] for n in inputs), *targets]),
         ("lags", slow, targets),
     ):
         for name in chosen:
@@ -149,13 +145,6 @@ def timing(
     return found, Modifiers(
         tuple(trained), tuple(trained.values()), tuple(starts[n] for n in trained)
     )
-
-
-def _measured(name: str) -> str:
-    """The input that a derivative of it belongs to."""
-    while name.startswith("der(") and name.endswith(")"):
-        name = name[4:-1]
-    return name
 
 
 def _time(kind: str, name: str, given: object, limit: float) -> tuple[float, Modifier | None]:

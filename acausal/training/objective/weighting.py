@@ -75,13 +75,7 @@ def weighting(
     targets: Sequence[str],
     loss: Loss,
 ) -> Weighting:
-    """Check a user's choice.
-
-    Arguments:
-        record_weights, sample_weights: the choice.
-        names: of the records.
-        targets: the variables that are compared.
-        loss: which has to take the weights.
+    """Check a user's choice for records and samples.
 
     Raises:
         TrainingError: for what is not a record, target or weight, or if the loss takes no weights.

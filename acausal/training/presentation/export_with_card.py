@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Any
 
 import acausal.export as export
 from acausal.errors import DataError, known_name, shown, user_level
-from acausal.files import file_to_write, need_path, write_files
+from acausal.files import file_to_write, json_text, need_path, write_files
 from acausal.modeling import by_name
 from acausal.training.presentation.model_card import facts, markdown
 from acausal.training.trained_model import TrainedModel
@@ -69,5 +68,5 @@ def export_with_card(
     else:
         files = (write(fit.system, target, fit.params, **own),)
     found = facts(fit, files, function, {**options}, confidence, further)
-    write_files({cards[0]: markdown(found), cards[1]: json.dumps(found, indent=2) + "\n"})
+    write_files({cards[0]: markdown(found), cards[1]: json_text(found, 2)})
     return target

@@ -40,13 +40,7 @@ DIVERGENCES_SHOWN = 50
 def fit_content(
     fit: TrainedModel, verdict: Verdict | None, title: str, profiles: Sequence[Profile] = ()
 ) -> PageContent:
-    """All that the page of a training shows.
-
-    Arguments:
-        fit: the result. verdict: on it.
-        title: headline.
-        profiles: to show whether parameters are identifiable.
-    """
+    """All that the page of a training shows; profiles show whether parameters are identifiable."""
     sure = fit.confidence() if np.isfinite(fit.loss) else None
     rows = parameter_rows(fit, sure)
     known = Known(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import math
 import platform
 from collections.abc import Iterator, Mapping, Sequence
 from datetime import UTC, datetime
@@ -17,6 +16,7 @@ import numpy as np
 
 from acausal.analysis import labels
 from acausal.errors import shown
+from acausal.files import finite
 from acausal.networks import promises_of
 from acausal.training.record_fit import RecordFit
 from acausal.training.trained_model import TrainedModel
@@ -45,7 +45,7 @@ def facts(
     """
     system = fit.system
     flags = {"fmu": "outside_training_range", "c": f"{files[0].stem}_outside"}
-    return _finite(
+    return finite(
         {
             "model": type(system.model).__name__,
             "written": datetime.now(UTC).strftime("%Y-%m-%d"),
@@ -151,15 +151,6 @@ def _versions() -> Iterator[tuple[str, str]]:
             yield package, version(package)
         except PackageNotFoundError:
             continue
-
-
-def _finite(value: Any) -> Any:
-    """The same without infinite numbers and NaN, which JSON has not."""
-    if isinstance(value, Mapping):
-        return {k: _finite(v) for k, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(v) for v in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 # -- the text ------------------------------------------------------------------------------------------

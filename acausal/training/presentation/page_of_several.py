@@ -72,14 +72,9 @@ def prediction_blocks(
     what: str = "mean of the members",
     whose: str = "of the members ",
 ) -> Iterable[Block]:
-    """Targets as measured, and as the members of an ensemble predict them on average; by record.
+    """Targets as measured, and by record as the members of an ensemble predict them on average.
 
-    Arguments:
-        records: with what is measured.
-        predicted: by record and target.
-        units: of the targets.
-        what: is predicted.
-        whose: the standard deviations are.
+    Captions say what is predicted, and whose the standard deviations are.
     """
     for record, bands in list(predicted.items())[:RECORDS_SHOWN]:
         where = "" if len(predicted) == 1 else f" of '{record}'"

@@ -207,10 +207,10 @@ def _step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N 
 
     Nothing is known where inputs are delayed by a time that is trained, as they are laid out for these steps: zero.
     """
-    known = np.asarray(problem.simulate(trainable).y)
     if isinstance(problem.solver, Adaptive) or problem.timing.delays:
-        return np.zeros_like(known)
-    return np.asarray(problem.finer().simulate(trainable).y) - known
+        return np.zeros(problem.records.y.shape)
+    fine, known = (of.simulate(trainable).y for of in (problem.finer(), problem))
+    return np.asarray(fine) - np.asarray(known)
 
 
 def _earlier(change: Changes) -> list[RecordJacobian]:

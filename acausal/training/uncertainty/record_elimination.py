@@ -48,13 +48,10 @@ class Covariance(NamedTuple):
 
 
 def posterior_covariance(blocks: Sequence[RecordJacobian], samples: float) -> Covariance:
-    """The covariance of numbers, after their prior standard deviations of 1, from all records.
+    """The covariance of numbers, after their prior standard deviations of 1, from blocks of all records.
 
-    Residuals are smaller than the noise, because the numbers follow a part of it: as many as the data determine.
-
-    Arguments:
-        blocks: of every record.
-        samples: how many independent samples the rows are worth.
+    Residuals are smaller than the noise, because the numbers follow a part of it: as many as the data determine. The
+    rows are worth so many independent samples.
     """
     determined = covariance(blocks).determined
     grown = np.sqrt(max(samples / max(samples - determined, 1.0), 1.0))

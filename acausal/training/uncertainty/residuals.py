@@ -98,12 +98,7 @@ class Residuals:
 
 
 class Piece(NamedTuple):
-    """The residuals of a target over one record.
-
-    Attributes:
-        values: measured less predicted.
-        inputs: by name, at the same samples.
-    """
+    """The residuals of a target over one record, measured less predicted, and inputs by name at the same samples."""
 
     values: Float[np.ndarray, " n"]
     inputs: Mapping[str, Float[np.ndarray, " n"]]
