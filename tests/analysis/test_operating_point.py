@@ -134,5 +134,5 @@ def test_a_model_whose_modes_contradict_its_rest_is_refused():
         lambda: ac.operating_point(system, inputs=inputs),
         lambda: ac.simulate(system, 1.0, inputs=inputs, x0="steady"),
     ):
-        with pytest.raises(ac.InitializationError, match="no discrete variables agree .* 'on'"):
+        with pytest.raises(ac.InitializationError, match=r"no discrete variables agree .* 'on'"):
             rest()
