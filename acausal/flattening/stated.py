@@ -286,12 +286,25 @@ class _Sorting:
                     "equal; compare by > or <"
                 )
             above = isinstance(relation, sp.Gt | sp.Ge)
-            lhs, rhs = literal(relation.lhs), literal(relation.rhs)
+            lhs, rhs = self._compared(relation.lhs), self._compared(relation.rhs)
             value: Any = lhs - rhs if above else rhs - lhs
             strict = isinstance(relation, sp.Gt | sp.Lt)
             target = self.known[relation] = self._new("bool", relation)
             self.guards.append(GuardStatement(target, self._ticking(value), str(relation), strict))
         return self.known[relation]
+
+    def _compared(self, expression: Any) -> Any:
+        """A side of a comparison: what makes it jump is an event of its own, if it is one or follows from time.
+
+        Else a search would leap over two jumps, and the instant of one would move with the rest of the comparison.
+        """
+        held = self._cases(expression)
+        replaced: dict[Any, Any] = {}
+        for node in _in_order(held.atoms(sp.floor, Relational)):
+            if time in node.free_symbols and not any(map(_is_unknown, node.free_symbols)):
+                is_floor = isinstance(node, sp.floor)
+                replaced[node] = self._floor(node.args[0], 1) if is_floor else self._truth(node)
+        return held.xreplace(replaced)
 
     def _floor(self, number: Any, _: Any) -> Reference:
         """The greatest integer not above a number, as a hidden variable.
@@ -393,11 +406,13 @@ def _serial(symbol: Any) -> int:
 
 def _is_continuous(relation: Relational) -> bool:
     """Whether a comparison can change between events."""
-    for symbol in relation.free_symbols:
-        if symbol == time:
-            return True
-        if isinstance(symbol, Reference):
-            declared = symbol.declaration
-            if isinstance(declared, Variable) and not isinstance(declared, Discrete):
-                return True
-    return bool(relation.has(sp.Function) and not relation.free_symbols)
+    symbols = relation.free_symbols
+    if time in symbols or any(map(_is_unknown, symbols)):
+        return True
+    return bool(relation.has(sp.Function) and not symbols)
+
+
+def _is_unknown(symbol: Any) -> bool:
+    """Whether it is a variable that changes between events."""
+    declared = symbol.declaration if isinstance(symbol, Reference) else None
+    return isinstance(declared, Variable) and not isinstance(declared, Discrete)
