@@ -99,17 +99,16 @@ def before_events(
     Arguments and errors as for `start_of`.
     """
     assert start.d is not None
-    d, x = start.d, initial_state(start.d)
+    now = before = initial_state(start.d), start.d
     for _ in range(STARTS):
-        found = _begun(events, start._replace(x=x))
-        now, before = (initial_state(found), found), (x, d)
-        x, d = now
+        found = _begun(events, start._replace(x=now[0]))
+        now, before = (initial_state(found), found), now
         compared = known((now, before))
         if compared is None or all(map(np.array_equal, *compared)):
-            return x, d
-    changed = np.asarray(~equal(d, before[1]))
+            return now
+    changed = np.asarray(~equal(now[1], before[1]))
     if not changed.any():  # the states creep by rounding
-        return x, d
+        return now
     raise _no_start(map(describe, np.flatnonzero(changed).tolist()))
 
 
