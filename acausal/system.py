@@ -54,7 +54,7 @@ from acausal.flattening import (
 )
 from acausal.initialization import Initialization, Initializer, initializer, overview
 from acausal.jobs import collection_paused
-from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
+from acausal.modeling import Budget, Component, Discrete, Input, Name, Option, names_in
 from acausal.structure import ReducedModel, reduce, with_loop_guesses
 from acausal.units import check_dimensions
 
@@ -178,11 +178,11 @@ class System(LeavesCaches):
 
     @cached_property
     def held_inputs(self) -> frozenset[str]:
-        """Names of the inputs that are truth values, whole numbers or modes: they are held from sample to sample."""
+        """Names of inputs that are held from sample to sample: truth values, whole numbers, modes, or so declared."""
         declared = map(self.flat.layout.variable_declaration, self.flat.inputs.tolist())
         pairs = zip(self.flat.inputs.tolist(), declared, strict=True)
         held = [
-            v for v, d in pairs if isinstance(d, Discrete) or getattr(d, "kind", "real") != "real"
+            v for v, d in pairs if isinstance(d, Discrete) or (isinstance(d, Input) and d.is_held)
         ]
         return frozenset(map(self.flat.layout.variable, held))
 

@@ -18,12 +18,16 @@ from acausal.modeling import (
     Component,
     Discrete,
     Eq,
+    Floored,
+    ModuleCall,
     Parameter,
+    Previous,
     Reference,
     Tick,
     Variable,
     Watched,
     When,
+    der,
     literal,
     number_or_truth,
     time,
@@ -141,8 +145,80 @@ def _changes(relation: Any) -> bool:
     return any(time in line.diff(time).free_symbols for line in lines)
 
 
+def has_jumps(side: Any) -> bool:
+    """Whether a case distinction of an expression jumps, at times that are not known ahead and no events yet."""
+    return any(map(is_continuous, side.atoms(sp.floor, sp.ceiling, sp.sign))) or any(
+        _changes(relation) and _jumps(relation, value - otherwise)
+        for _, condition, value, otherwise in _cases([side], with_events=True)
+        for relation in condition.atoms(Relational)
+    )
+
+
+def is_continuous(expression: Any) -> bool:
+    """Whether a comparison, or a number, can change between events."""
+    for symbol in expression.free_symbols:
+        if symbol == time:
+            return True
+        if isinstance(symbol, Reference):
+            declared = symbol.declaration
+            if isinstance(declared, Variable) and not isinstance(declared, Discrete):
+                return True
+    return bool(expression.has(sp.Function) and not expression.free_symbols)
+
+
+def in_steps(expression: Any) -> Any:
+    """The same with signs, ceilings and floors as case distinctions and integers that can be watched."""
+
+    def steps(jumps: Any) -> Any:
+        (number,) = jumps.args
+        if isinstance(jumps, sp.sign):
+            return sp.Piecewise((1, sp.Gt(number, 0)), (-1, sp.Lt(number, 0)), (0, True))
+        up = isinstance(jumps, sp.ceiling)
+        return -Floored(-number, sp.S.Zero) if up else Floored(number, sp.S.Zero)
+
+    def can_jump(part: Any) -> bool:
+        return isinstance(part, sp.sign | sp.ceiling | sp.floor) and is_continuous(part)
+
+    return expression.replace(can_jump, steps)
+
+
+def changing(value: Any, stated: Sequence[Any]) -> Any:
+    """A symbol by which the value of a discrete variable's equation changes between events, too; None: none is known.
+
+    Known are time, states of the same component, and what its equations give explicitly by these. What computes by
+    itself, such as a network or an FMU, is taken to know what it does.
+    """
+    sides = [(one.lhs, one.rhs) for one in stated if _is_literal(one)]
+    states = {
+        d.args[0] for pair in sides for s in pair if isinstance(s, sp.Basic) for d in s.atoms(der)
+    }
+    seen, left = set[Any](), [value]
+    while left:
+        quiet = left.pop()
+        if quiet.has(ModuleCall):
+            continue
+        replaced = {p: p.reference for p in quiet.atoms(Previous)} | dict.fromkeys(
+            quiet.atoms(Tick), sp.S.Zero
+        )
+        quiet = literal(in_steps(quiet).replace(Floored, lambda *_: sp.S.Zero).xreplace(replaced))
+        for symbol in sorted(_acting(quiet, with_events=False).free_symbols - seen, key=str):
+            if symbol == time or symbol in states:
+                return symbol
+            seen.add(symbol)
+            if not isinstance(getattr(symbol, "declaration", None), Discrete):
+                left += [
+                    number_or_truth(b)
+                    for pair in sides
+                    for a, b in (pair, pair[::-1])
+                    if a == symbol
+                ]
+    return None
+
+
 def _jumps(relation: Any, difference: Any) -> bool:
     """Whether a difference is not zero where a relation changes, as far as some points can tell."""
+    if difference.is_number:
+        return difference != 0
     number = relation.lhs - relation.rhs
     symbols = sorted(number.free_symbols, key=str)
     for symbol in symbols:

@@ -15,7 +15,7 @@ from sympy.core.relational import Relational
 
 from acausal.errors import DeclarationError
 from acausal.flattening.origin import HIDDEN
-from acausal.flattening.silent import Silent
+from acausal.flattening.silent import Silent, changing, has_jumps, in_steps, is_continuous
 from acausal.modeling import (
     HALF,
     INITIAL,
@@ -133,6 +133,7 @@ class _Sorting:
         """All of it, each where it belongs."""
         equations: list[Eq] = []
         whens = [one for one in stated if isinstance(one, When)]
+        deciding = _deciding(stated)
         for one in stated:
             if isinstance(one, When):
                 continue  # after all others, whose comparisons it may repeat
@@ -140,9 +141,15 @@ class _Sorting:
                 equations.append(one)  # refused where templates are made
             elif (target := _discrete_side(one)) is not None:
                 value = one.rhs if target is one.lhs else one.lhs
+                if (by := changing(number_or_truth(value), stated)) is not None:
+                    raise DeclarationError(
+                        f"{self.component._node.label}: the discrete variable '{target.path}' changes at events alone, "
+                        f"but by {_written(one, target)} it would follow '{by}' between them, too; declare it as "
+                        "ac.Variable, or give it in ac.When(...), such as ac.When(ac.sample(0, period), ...)"
+                    )
                 self._update(target, self._watched(number_or_truth(value)), _written(one, target))
             else:
-                equations.append(self._continuous(one))
+                equations.append(self._continuous(one, decides=id(one) in deciding))
         for one in whens:
             self._when(one)
         return Stated(
@@ -155,8 +162,10 @@ class _Sorting:
 
     # -- equations ---------------------------------------------------------------------------------
 
-    def _continuous(self, equation: Eq) -> Eq:
+    def _continuous(self, equation: Eq, *, decides: bool) -> Eq:
         sides = [number_or_truth(s) for s in (equation.lhs, equation.rhs)]
+        if decides:
+            sides = [self._watched(s) if has_jumps(s) else s for s in sides]
         if any(s.has(Watched, Floored, Previous, Tick) for s in sides):
             sides = [self._held(self._cases(side)) for side in sides]
         return Eq(*sides).stated_in(equation.place)
@@ -244,7 +253,7 @@ class _Sorting:
 
     def _watched(self, expression: Any) -> Any:
         """The value of a discrete equation, all its conditions watched."""
-        pieces = literal(expression.replace(Floored, self._floor))
+        pieces = literal(in_steps(expression).replace(Floored, self._floor))
         conditions = {c for p in pieces.atoms(sp.Piecewise) for _, c in p.args}
         replaced = {c: self._truth(c) for c in _in_order(conditions) if c is not sp.true}
         return self._ticking(pieces.xreplace(replaced))
@@ -274,7 +283,7 @@ class _Sorting:
         replaced = {
             r: sp.Gt(self._guard(r), HALF)
             for r in _in_order(condition.atoms(Relational))
-            if _is_continuous(r)
+            if is_continuous(r)
         }
         return self._ticking(condition.xreplace(replaced))
 
@@ -381,6 +390,27 @@ def _discrete_side(equation: Eq) -> Reference | None:
     return None
 
 
+def _deciding(stated: Sequence[Any]) -> set[int]:
+    """The equations, by identity, of variables that conditions of events, and discrete variables, follow from."""
+    wanted: set[Any] = set()
+    rest: list[Eq] = []
+    for one in stated:
+        if isinstance(one, When):
+            wanted |= {s for link in one.chain() for c in link.conditions for s in c.free_symbols}
+        elif isinstance(one, Eq):
+            sides = [number_or_truth(s) for s in (one.lhs, one.rhs)]
+            if _discrete_side(one) is None:
+                rest.append(one)
+                sides = [w.args[0] for s in sides for w in s.atoms(Watched)]
+            wanted |= {symbol for side in sides for symbol in side.free_symbols}
+    found: set[int] = set()
+    while more := [e for e in rest if id(e) not in found and wanted & {e.lhs, e.rhs}]:
+        found |= {id(e) for e in more}
+        sides = [number_or_truth(s) for e in more for s in (e.lhs, e.rhs)]
+        wanted |= {symbol for side in sides for symbol in side.free_symbols}
+    return found
+
+
 def _written(equation: Eq, target: Reference) -> str:
     """An equation as a text; of one of a thousand parts, as tables of logic have, only what it gives."""
     parts = islice(sp.preorder_traversal(sp.Tuple(equation.lhs, equation.rhs)), 1000)
@@ -402,14 +432,6 @@ def _in_order(expressions: Iterable[Any]) -> list[Any]:
 def _serial(symbol: Any) -> int:
     reference = symbol.reference if isinstance(symbol, Previous) else symbol
     return reference.serial if isinstance(reference, Reference) else -1
-
-
-def _is_continuous(relation: Relational) -> bool:
-    """Whether a comparison can change between events."""
-    symbols = relation.free_symbols
-    if time in symbols or any(map(_is_unknown, symbols)):
-        return True
-    return bool(relation.has(sp.Function) and not symbols)
 
 
 def _is_unknown(symbol: Any) -> bool:

@@ -53,6 +53,9 @@ HISTORY, NEXT, INDICATORS = "fmu.history", "fmu.next", "fmu.indicators"
 REACHED, COMPLETED, TAKEN = "fmu.reached", "fmu.completed", "fmu.taken"
 """Names of what the model knows of the FMU's events."""
 
+CHANGE = 1e-3
+"""So large a change of a discrete real input, relative to its nominal value, is an event."""
+
 
 class _Earlier(Component):
     """An input of a co-simulation as it was one communication point before."""
@@ -83,8 +86,8 @@ class FMU(Component):
         step: the communication step of co-simulation [s]; by default the one that the FMU suggests, the interval of
             its fastest clock, or 1/500 of its experiment. In model exchange, the time after which the FMU is told that
             a step is completed.
-        open_loop: nothing that is trained acts on the inputs of a co-simulation or of clocks: gradients take them as
-            they are.
+        open_loop: nothing that is trained acts on the inputs of a co-simulation, on those of clocks or on discrete
+            ones: gradients take them as they are.
         memory: so many communication steps of a simulation gradients may go through inputs of a co-simulation. Each
             instant then costs the FMU a step for each input and each instant before.
 
@@ -174,7 +177,9 @@ class FMU(Component):
         for v in chosen.inputs:
             if v.name not in chosen.values:
                 given = None if v.start is None and v.type != CLOCK else starts(v)
-                self._add_declaration(v.name, _declared(Input, v, kind=_kind(v), default=given))
+                held = True if v.variability == "discrete" else None
+                declared = _declared(Input, v, kind=_kind(v), default=given, held=held)
+                self._add_declaration(v.name, declared)
         if self._part.kind == "cs":
             self._declare_held(chosen.results)
         else:
@@ -226,6 +231,9 @@ class FMU(Component):
             n, doc = self._part.n_next, "the FMU's next time event"
             many, doc = ((n,), f"{doc}, and ticks of its clocks") if n > 1 else (None, doc)
             self._add_declaration(NEXT, Discrete(NEVER, unit="s", shape=many, doc=doc))
+            if n := len(self._part.elements(self._discrete)):
+                doc = "the FMU's discrete inputs as it has taken them, but for a small change"
+                self._add_declaration(TAKEN, Discrete(shape=(n,), doc=doc))
             n = self.description.indicators
             self._add_declaration(
                 INDICATORS, Variable(shape=(n,), doc="the FMU's event indicators")
@@ -333,11 +341,30 @@ class FMU(Component):
         if self._part.step:  # at an event, a step of the integration ends
             count = self[COMPLETED]
             yield When(sample(0, self._part.step), Eq(count, pre(count) + 1))
+        taken = self._elements([TAKEN] if self._discrete else [])
+        for u, kept, least in zip(
+            self._elements(self._discrete), taken, self._changes(), strict=True
+        ):
+            yield When(initial() | (abs(u - pre(kept)) > least), Eq(kept, u))
         if states:
             each = enumerate(zip(states, self._units(self.description.states), strict=True))
             first = 1 + self._part.n_next
             jumps = [Reinit(x, u.to_model(self.event(first + i, *given))) for i, (x, u) in each]
             yield When(abs(self[HISTORY] - pre(self[HISTORY])) > HALF, *jumps)
+
+    @property
+    def _discrete(self) -> tuple[str, ...]:
+        """The inputs that the FMU takes at events alone."""
+        known = self.description.variables
+        return tuple(n for n in self._part.inputs if known[n].is_discrete_input)
+
+    def _changes(self) -> list[float]:
+        """By how much each of these has changed where an event is made for it; one that jumps has one anyway."""
+        found = list[float]()
+        for v in map(self.description.variables.__getitem__, self._discrete):
+            real = CHANGE * abs(v.conversion.factor) * v.nominal
+            found += [real if v.type in REAL else 0.5] * v.size
+        return found
 
     def _starts(self, first: int, variable: FMUVariable) -> Any:
         """The start values of a state, which the FMU's own initialization finds, by expressions of parameters."""

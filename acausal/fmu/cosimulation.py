@@ -61,7 +61,7 @@ class Slave(EventMode):
         place = given.ctypes.data if inputs else 0
         self.initialize(time, held.ctypes.data, place, again=False)
         self.time, self.started, self.given = time, True, inputs
-        if self.library.description.event_mode:
+        if self.library.event_mode:
             self.next = self.iterate(time, place, ticks=bool(inputs)).next
 
     def take(self, inputs: bytes) -> None:
@@ -71,7 +71,7 @@ class Slave(EventMode):
 
     def _happen(self, writes: Sequence[Any] = (), *, ticks: bool = True) -> None:
         """An event, at which inputs may be set."""
-        has_events, given = self.library.description.event_mode, np.frombuffer(self.given).copy()
+        has_events, given = self.library.event_mode, np.frombuffer(self.given).copy()
         place = given.ctypes.data if self.given else 0
         if has_events:
             self.call("EnterEventMode")

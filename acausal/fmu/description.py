@@ -154,6 +154,11 @@ class FMUVariable:
         return bool(self.clocks) or self.type == CLOCK
 
     @property
+    def is_discrete_input(self) -> bool:
+        """Whether it is an input that model exchange sets at events alone, and no clock or clocked one."""
+        return self.causality == "input" and self.variability == "discrete" and not self.is_clocked
+
+    @property
     def names(self) -> list[str]:
         """Of its elements, as Modelica has them."""
         return element_names(self.name, self.shape)

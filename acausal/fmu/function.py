@@ -43,8 +43,9 @@ class FMUFunction(eqx.Module):
         given = [jnp.asarray(v, kind) for v in values]
         if self.kind in ("take", "event"):
             known = part.open_loop or part.memory  # by what the model remembers of them
-            held = jax.lax.stop_gradient if known else partial(_held, part)
-            for place in part.sampled:
+            for place, is_real in part.sampled.items():
+                free = known or not is_real
+                held = jax.lax.stop_gradient if free else partial(_held, part)
                 given[place] = held(given[place])
         old = given[-part.n_next :] if self.kind == "event" else []
         found = _found(number, rows, *given[: len(given) - len(old)])
@@ -68,7 +69,7 @@ def _refuse(part: Part, at: tuple[Array], along: tuple[Any]) -> tuple[Array, Arr
     """How an FMU depends on inputs that it took earlier is inside of it."""
     if not isinstance(along[0], SymbolicZero):
         clocked = part.kind == "me" or any(part.behind)
-        whose, remedy = "which its clocks take", ""
+        whose, remedy = "which it takes at events or ticks of its clocks", ""
         if not clocked:
             whose = "whose co-simulation depends on all earlier ones"
             remedy = (
@@ -152,7 +153,7 @@ def has_events(part: Part) -> bool:
     changes = any(
         v.type == CLOCK or (v.variability == "discrete" and v.causality in ("local", "output"))
         for v in known
-    )
+    ) or any(part.description.variables[n].is_discrete_input for n in part.inputs)
     found = evaluated(part)
     return found is not None and (
         changes or part.description.indicators > 0 or found.first_event < NEVER

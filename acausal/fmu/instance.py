@@ -6,8 +6,8 @@ Every number goes by its address: what JAX hands over is passed on as it lies in
 from __future__ import annotations
 
 import ctypes as C
-from collections.abc import Sequence
-from typing import Any, ClassVar
+from collections.abc import Iterable, Sequence
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -23,6 +23,8 @@ from acausal.fmu.library import (
     Variables,
     kind_of,
 )
+
+_Call: TypeAlias = tuple[tuple[str, ...], bool, Any]
 
 Settings = Sequence[tuple[FMUVariable, Any]]
 """Variables with values that are fixed when an FMU is made."""
@@ -64,9 +66,13 @@ class Instance:
     ) -> None:
         self.library, self.settings = library, settings
         self.parameters, self.inputs, self.results = parameters, inputs, results
-        self._reads, self._clocked_reads = self._calls("Get", results)
-        self._writes, self._clocked_writes = self._calls("Set", inputs)
-        self._sets, _ = self._calls("Set", parameters)
+        reads, writes = self._calls("Get", results), self._calls("Set", inputs)
+        self._reads, self._clocked_reads = _free(reads), _clocked(reads)
+        self._continuous_writes = _free(w for w in writes if not w[1])
+        self._discrete_writes = _free(w for w in writes if w[1])
+        self._writes = [*self._continuous_writes, *self._discrete_writes]
+        self._clocked_writes = _clocked(writes)
+        self._sets = _free(self._calls("Set", parameters))
         self._kept: dict[Any, tuple[int, list[Any]]] = {}
         self.make()
 
@@ -85,14 +91,13 @@ class Instance:
         self.address = library.instantiate()
         library.instances += 1
 
-    def _calls(self, verb: str, variables: Variables) -> tuple[list[Any], list[Any]]:
-        """For each type, the function, and what it is called with; then the same of what is clocked, with clocks."""
-        calls = [
-            (clocks, (self.library.accessor(verb, word), kind, references, start, size, count,
+    def _calls(self, verb: str, variables: Variables) -> list[_Call]:
+        """For each block of variables, its clocks, whether it is discrete, the function, and what it is called with."""
+        return [
+            (clocks, discrete, (self.library.accessor(verb, word), kind, references, start, size, count,
              () if self.library.is_2 else (size,)))
-            for clocks, (word, kind, references, start, size, count) in variables.blocks
+            for clocks, discrete, (word, kind, references, start, size, count) in variables.blocks
         ]  # fmt: skip
-        return [call for clocks, call in calls if not clocks], [c for c in calls if c[0]]
 
     def free(self) -> None:
         """Give it back."""
@@ -253,3 +258,13 @@ class Instance:
                 (C.c_double * size).from_address(place)[:] = list(values)
             if status > WARNING:
                 self.check(status, "computing outputs")
+
+
+def _free(calls: Iterable[_Call]) -> list[Any]:
+    """Those that need no clock."""
+    return [call for clocks, _, call in calls if not clocks]
+
+
+def _clocked(calls: Iterable[_Call]) -> list[tuple[tuple[str, ...], Any]]:
+    """The others, behind their clocks."""
+    return [(clocks, call) for clocks, _, call in calls if clocks]

@@ -45,15 +45,16 @@ class Variables:
 
     Attributes:
         size: how many numbers there are. blocks: what one call takes, behind the clocks at whose ticks alone it may be
-            called. clocks: places of clocks, which are counts of their ticks, by name. starts: start values.
+            called, and whether it sets discrete inputs. clocks: places of clocks, which are counts of their ticks, by
+            name. starts: start values.
     """
 
     def __init__(self, version: str, variables: Sequence[FMUVariable]) -> None:
-        self.blocks: list[tuple[tuple[str, ...], tuple[str, Any, Any, int, int, int]]] = []
+        self.blocks: list[tuple[tuple[str, ...], bool, tuple[str, Any, Any, int, int, int]]] = []
         self.clocks: dict[str, int] = {}
         first = 0
-        for (clocks, word, kind), run in groupby(
-            variables, lambda v: (v.clocks, *kind_of(version, v.type))
+        for (clocks, discrete, word, kind), run in groupby(
+            variables, lambda v: (v.clocks, v.is_discrete_input, *kind_of(version, v.type))
         ):
             some = list(run)
             references = (C.c_uint32 * len(some))(*(v.reference for v in some))
@@ -61,7 +62,8 @@ class Variables:
             if word == CLOCK:
                 self.clocks |= {v.name: first + i for i, v in enumerate(some)}
             else:
-                self.blocks.append((clocks, (word, kind, references, first, size, len(some))))
+                call = word, kind, references, first, size, len(some)
+                self.blocks.append((clocks, discrete, call))
             first += size
         self.size = first
         self.starts = np.asarray([s for v in variables for s in v.starts], float).tobytes()
@@ -85,12 +87,14 @@ class SharedLibrary:
 
     Attributes:
         messages: the last ones that its instances have logged. instances: how many there are.
+        event_mode: whether co-simulation is with event mode.
     """
 
     instances = 0
 
     def __init__(self, description: Description, folder: Folder, kind: Interface) -> None:
         self.description, self.folder, self.kind = description, folder, kind
+        self.event_mode = description.event_mode
         self.name = description.model.encode()
         self.messages = _MESSAGES.setdefault(self.name, deque(maxlen=MESSAGES))
         path = binary(folder.path, description.library(kind), description.model)
@@ -168,10 +172,15 @@ class SharedLibrary:
             given = [name, token, place, (boolean, False), (boolean, True)]
             if steps:
                 word, early = "CoSimulation", (boolean, d.returns_early)
-                given += [(boolean, d.event_mode), early, nothing, (C.c_size_t, 0)]
+                given += [(boolean, self.event_mode), early, nothing, (C.c_size_t, 0)]
             given += [nothing, log, *([nothing] if steps else [])]
         kinds, values = zip(*given, strict=True)
         made = self.function(f"Instantiate{word}", *kinds, result=p)(*values)
+        if (
+            not made and steps and self.event_mode and not d.clocks
+        ):  # some say that they have it, and have not
+            self.event_mode = False
+            return self.instantiate()
         if not made:
             raise FMUError(f"FMU: '{d.model}' gives no instance{self.said()}.")
         return int(made)

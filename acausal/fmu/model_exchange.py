@@ -43,6 +43,7 @@ class Exchange(EventMode):
         if self.library.description.completes:
             self._complete(time)
         self.check(self.library.calls["EnterEventMode"](self.address), "EnterEventMode")
+        self._write(self._discrete_writes, inputs, "an input")
         return self.iterate(time, inputs)
 
     def _complete(self, time: float) -> None:
@@ -57,13 +58,13 @@ class Exchange(EventMode):
             self.last = time
 
     def move(self, time: float, states: int, inputs: int) -> None:
-        """Set time, states and inputs, these by address."""
+        """Set time, states and the inputs that are not discrete, these by address."""
         self.check_time(time)
         if (status := self._set_time(self.address, time)) > WARNING:
             self.check(status, "SetTime")
         if self.n and (status := self._set_states(self.address, states, self.n)) > WARNING:
             self.check(status, "SetContinuousStates")
-        self._write(self._writes, inputs, "an input")
+        self._write(self._continuous_writes, inputs, "an input")
 
     def read(self, into: int) -> None:
         """Rates, results and event indicators, in this order, to an address.

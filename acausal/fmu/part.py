@@ -7,7 +7,7 @@ from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
-from acausal.fmu.description import Description, Interface, timed_clocks
+from acausal.fmu.description import REAL, Description, Interface, timed_clocks
 
 
 @dataclass(frozen=True)
@@ -74,11 +74,12 @@ class Part:
         return [self.description.is_of_ticks(v) for v in known for _ in range(v.size)]
 
     @cached_property
-    def sampled(self) -> list[int]:
-        """The places of inputs that only clocks or communication points take."""
+    def sampled(self) -> dict[int, bool]:
+        """The places of inputs that are taken at events, ticks or communication points alone; whether each is real."""
         known, first = self.description.variables, 2 + self.n
-        each = [v.is_clocked for v in (known[n] for n in self.inputs) for _ in range(v.size)]
-        return [first + i for i, clocked in enumerate(each) if clocked or self.kind == "cs"]
+        inputs = [v for v in (known[n] for n in self.inputs) for _ in range(v.size)]
+        held = [self.kind == "cs" or v.is_clocked or v.is_discrete_input for v in inputs]
+        return {first + i: v.type in REAL for i, v in enumerate(inputs) if held[i]}
 
     @cached_property
     def key(self) -> str:

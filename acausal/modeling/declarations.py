@@ -226,13 +226,21 @@ class Input(Variable):
     """A causal signal that enters; left unconnected it becomes an input of the model.
 
     Arguments:
-        kind: ``"real"``, ``"bool"`` (1 or 0) or ``"int"``. As an input of the model, one that is not real is held from
-            sample to sample unless a record says otherwise.
+        kind: ``"real"``, ``"bool"`` (1 or 0) or ``"int"``.
         default: what it is as an input of the model where nothing is given for it; a tuple for each of several.
+        held: whether, as an input of the model, it is held from sample to sample unless a record says otherwise;
+            ``None``: where it is not real.
         others: as of `Variable`.
     """
 
-    def __init__(self, *, kind: Kind = "real", default: Any = None, **others: Any) -> None:
+    def __init__(
+        self,
+        *,
+        kind: Kind = "real",
+        default: Any = None,
+        held: bool | None = None,
+        **others: Any,
+    ) -> None:
         if not isinstance(kind, str) or kind not in KINDS:
             raise DeclarationError(f"kind={shown(kind)} must be one of {', '.join(KINDS)}")
         if default is not None and not _are_numbers(default):
@@ -240,7 +248,14 @@ class Input(Variable):
                 f"default={shown(default)} must be a number, or a tuple of numbers"
             )
         super().__init__(**others)
-        self.kind, self.default = kind, default
+        if held is not None:
+            need_flag(held, "held", DeclarationError)
+        self.kind, self.default, self.held = kind, default, held
+
+    @property
+    def is_held(self) -> bool:
+        """Whether, as an input of the model, it is held from sample to sample."""
+        return self.kind != "real" if self.held is None else self.held
 
 
 def is_number(value: Any) -> bool:

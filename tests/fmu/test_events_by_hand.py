@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import jax
 import numpy as np
 import pytest
 
@@ -62,6 +64,44 @@ def test_events_of_a_co_simulation_end_its_steps(counter: Counter) -> None:
     run = ac.simulate(ac.compile(part), 1.0, dt=0.2)
     np.testing.assert_allclose(run["x"], 0.4 * np.arange(6), atol=1e-12)
     np.testing.assert_allclose(run["n"], [0, 0, 1, 2, 3, 4])
+
+
+INPUT = '<Float64 name="v" valueReference="6" causality="input" variability="discrete" start="0"/>'
+DISCRETE = DESCRIPTION.replace(' needsCompletedIntegratorStep="true"', "").replace(
+    "  </ModelVariables>", f"    {INPUT}\n  </ModelVariables>"
+)
+
+
+@pytest.mark.parametrize("kind", ["previous", "linear"])
+def test_a_discrete_input_is_set_at_events(counter: Counter, kind: Any) -> None:
+    """One that is held changes at the events that it makes, a ramp whenever it has changed by a thousandth."""
+    system, at = ac.compile(ac.FMU(counter(DISCRETE), {"u": 0.0})), np.linspace(0.0, 1.0, 11)
+    assert system.held_inputs == {"v"}
+    times, v = np.array([0.0, 0.3, 1.0]), np.array([1.0, 1.3, 1.3])
+    given = (times, v) if kind == "previous" else ac.Signal(times, v, "linear")
+    run, behind = ac.simulate(system, 1.0, saveat=at, inputs={"v": given}), np.maximum(at - 0.3, 0)
+    if kind == "previous":
+        np.testing.assert_allclose(run["x"], at + 0.3 * behind, atol=1e-9)
+    else:
+        exact = np.where(at < 0.3, at + at**2 / 2, 0.345 + 1.3 * behind)
+        np.testing.assert_allclose(run["x"], exact, atol=2e-3)
+        assert 250 < len(run.events) < 350
+
+
+def test_gradients_through_discrete_inputs_are_refused(counter: Counter) -> None:
+    def end(v: Any, **more: Any) -> Any:
+        system = ac.compile(ac.FMU(counter(DISCRETE), {"u": 0.0}, **more))
+        return ac.simulate(system, 0.2, inputs={"v": v}, saveat=[0.2])["x"][0]
+
+    with pytest.raises(ac.SimulationError, match=r"which it takes at events.*open_loop=True"):
+        jax.grad(end)(1.0)
+    assert jax.grad(lambda v: end(v, open_loop=True))(1.0) == 0
+
+
+def test_a_co_simulation_that_has_no_event_mode_after_all_does_without(counter: Counter) -> None:
+    part = ac.FMU(counter(DESCRIPTION.replace('"counter">', '"eventless">')), kind="cs")
+    run = ac.simulate(ac.compile(part), 1.0, dt=0.1)
+    np.testing.assert_allclose(run["x"], 0.2 * np.arange(11), atol=1e-12)
 
 
 def test_a_library_without_clocks_is_named_where_the_description_has_one(counter: Counter) -> None:

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator
 from typing import Any
 
+import jax
 import numpy as np
 import pytest
 
@@ -100,3 +101,38 @@ def test_hash_seeds_do_not_change_what_holds_at_events() -> None:
     assert len(expected) > 1000
     for run in runs:
         assert run.communicate()[0].strip() == expected
+
+
+class Follower(ac.Component):
+    """A number that jumps with a state, and a discrete variable that follows it."""
+
+    k = ac.Parameter(2.0)
+    b, c = ac.Output(), ac.Output()
+    h = ac.Discrete(0.0)
+    x = ac.Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(self.b, ac.where(self.x**2 > 1, 1, 0))
+        yield ac.Eq(self.c, 2 * self.b)
+        yield ac.Eq(ac.der(self.x), self.k * ac.time + self.h)
+        yield self.follows()
+
+    def follows(self) -> Any:
+        return ac.Eq(self.h, self.c / 2)
+
+
+class Triggered(Follower):
+    def follows(self) -> Any:
+        return ac.When(self.c > 1, ac.Eq(self.h, self.b))
+
+
+@pytest.mark.parametrize("model", [Follower, Triggered])
+def test_a_jump_that_a_discrete_variable_follows_is_an_event(model: Any) -> None:
+    """x = k t^2 / 2 up to 1, which it reaches at t = (2 / k)^1/2; from then on 1 more a second."""
+
+    def end(k: Any) -> Any:
+        return ac.simulate(system, 2.0, params={"k": k}, saveat=[2.0])["x"][0]
+
+    system = ac.compile(model())
+    value, slope = jax.value_and_grad(end)(2.0)
+    np.testing.assert_allclose([value, slope], [5.0, 2.25], rtol=1e-9)

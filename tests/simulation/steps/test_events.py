@@ -174,6 +174,8 @@ class Broken(ac.Component):
                 yield ac.Eq(self.y, ac.where(self.x > 0, 1, 2, events="x"))
             case "circle":
                 yield ac.Eq(self.n, ac.where(self.n > 0.5, 0, 1))
+            case "follows":
+                yield ac.Eq(self.n, ac.where(self.x < 0.5, self.y, 1))
             case "slides":
                 yield ac.Eq(self.n, ac.where(self.x < 0.5, 1, -1))
             case _:
@@ -188,6 +190,7 @@ class Broken(ac.Component):
         ("no state", "Reinit of 'y', which is not a state"),
         ("two jumps", "two When(...) make 'x' jump"),
         ("not discrete", "neither side is a discrete variable"),
+        ("follows", "would follow 'x' between them, too; declare it as ac.Variable, or give it in"),
     ],
 )
 def test_wrong_events_are_refused_in_a_sentence(kind: str, words: str) -> None:

@@ -122,3 +122,27 @@ def test_jumps_of_time_within_a_condition_are_events():
     value, slope = jax.value_and_grad(last)(m)
     assert float(value) == pytest.approx(i, abs=1e-9)
     assert float(slope) == pytest.approx(by_m, rel=1e-6)
+
+
+class Counted(ac.Component):
+    """Discrete variables that follow a ramp in steps, and a number in steps that an event waits for."""
+
+    x = ac.Variable(start=0.0, fixed=True)
+    n = ac.Discrete(0, kind="int")
+    side, at = ac.Discrete(0.0), ac.Discrete(0.0)
+    halves = ac.Variable()
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), 1)
+        yield ac.Eq(self.n, ac.floor(self.x))
+        yield ac.Eq(self.side, ac.sign(self.x - 1.5))
+        yield ac.Eq(self.halves, ac.floor(2 * self.x))
+        yield ac.When(self.halves > 2, ac.Eq(self.at, ac.time))
+
+
+def test_in_equations_of_discrete_variables_all_integers_jump_at_events():
+    times = np.arange(0.1, 3, 0.25)
+    sol = ac.simulate(ac.compile(Counted()), (0, 3), saveat=times)
+    np.testing.assert_array_equal(sol["n"], np.floor(times))
+    np.testing.assert_array_equal(sol["side"], np.sign(times - 1.5))
+    np.testing.assert_allclose(sol["at"], np.where(times > 1.5, 1.5, 0.0), atol=1e-12)
