@@ -42,7 +42,7 @@ from acausal.codegen import (
     read,
 )
 from acausal.errors import DataError, ModelError, known_name, nearest, need_flag, shown, user_level
-from acausal.events import Edges, Events, generate_events, start_of
+from acausal.events import Edges, Events, before_events, generate_events, start_of
 from acausal.flattening import (
     FlatModel,
     LeavesCaches,
@@ -493,7 +493,20 @@ class System(LeavesCaches):
         check_time(t0, "t0")
         packed, u = self.pack(params), self.inputs_at(t0, inputs)
         x0, steady = (None, True) if isinstance(x0, str) and x0 == "steady" else (x0, steady)
-        return self.initializer(packed, x0, u, t0, steady, least_squares)
+        return self._begun(packed, x0, u, t0, steady, least_squares)[0]
+
+    def _begun(
+        self, packed: Packed, x0: Any, u: Array, t0: float, steady: Any, least_squares: bool
+    ) -> tuple[Float[Array, " n_states"], Float[Array, " n_discrete"] | None]:
+        """Initial states, and the discrete variables with which they are found; None where these do not matter."""
+
+        def state(d: Array | None) -> Array:
+            return self.initializer(packed, x0, u, t0, steady, least_squares, d=d)
+
+        if self.events is None or not self.initializer.solves(x0, steady, least_squares):
+            return state(None), None
+        start = self.blank(packed, t0, u)
+        return before_events(self.events, start, state, self.describe_discrete)
 
     def start_values(
         self,
@@ -574,9 +587,9 @@ class System(LeavesCaches):
         """
         check_time(t0, "t0")
         packed, u = self.pack(params), self.inputs_at(t0, inputs)
-        if isinstance(x0, str) and x0 == "steady":
-            return self.initializer.report(packed, None, u, t0, True, least_squares)
-        return self.initializer.report(packed, x0, u, t0, steady, least_squares)
+        x0, steady = (None, True) if isinstance(x0, str) and x0 == "steady" else (x0, steady)
+        d = self._begun(packed, x0, u, t0, steady, least_squares)[1]
+        return self.initializer.report(packed, x0, u, t0, steady, least_squares, d)
 
     def inputs_at(
         self, t: float, inputs: Mapping[str, Any] | Numbers | None

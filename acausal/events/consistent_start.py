@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import jax.numpy as jnp
 import numpy as np
@@ -85,22 +85,34 @@ def non_converged(events: Events, at: Values) -> list[int]:
 
 
 def before_events(
-    events: Events, start: Values, initial_state: Callable[[Array], Float[Array, " n_states"]]
+    events: Events,
+    start: Values,
+    initial_state: Callable[[Array], Float[Array, " n_states"]],
+    describe: Callable[[int], str],
 ) -> tuple[Float[Array, " n_states"], Float[Array, " n_discrete"]]:
     """States and discrete variables that agree, before what happens at the first time.
 
-    Arguments as for `start_of`.
+    Arguments and errors as for `start_of`.
     """
     assert start.d is not None
-    d, x = start.d, initial_state(start.d)
+    now = before = initial_state(start.d), start.d
     for _ in range(STARTS):
-        found = _begun(events, start._replace(x=x))
-        now, before = (initial_state(found), found), (x, d)
-        x, d = now
+        found = _begun(events, start._replace(x=now[0]))
+        now, before = (initial_state(found), found), now
         compared = known((now, before))
         if compared is None or all(map(np.array_equal, *compared)):
-            break
-    return x, d
+            return now
+    changed = np.asarray(~equal(now[1], before[1]))
+    if not changed.any():  # the states creep by rounding
+        return now
+    raise _no_start(map(describe, np.flatnonzero(changed).tolist()))
+
+
+def _no_start(circle: Iterable[str]) -> InitializationError:
+    return InitializationError(
+        f"At the start no discrete variables agree with the initial values: {listing([*circle], 6) or 'conditions'} "
+        "change each other without end; break the circle by pre(...), or give other starts."
+    )
 
 
 def start_of(
@@ -120,13 +132,9 @@ def start_of(
     Raises:
         InitializationError: if no discrete variables agree with the initial values.
     """
-    x, d = before_events(events, start, initial_state)
+    x, d = before_events(events, start, initial_state, describe)
     at = start._replace(x=x, d=d)
     after = _fire_at_start(events, at, traced(at))
     if (converged := known(after.converged)) is not None and not bool(converged):
-        circle = listing(map(describe, non_converged(events, at)), 6)
-        raise InitializationError(
-            f"At the start no discrete variables agree with the initial values: {circle or 'conditions'} change each "
-            "other without end; break the circle by pre(...), or give other starts."
-        )
+        raise _no_start(map(describe, non_converged(events, at)))
     return start._replace(x=after.x, d=after.d)

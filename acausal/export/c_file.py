@@ -12,7 +12,6 @@ import numpy as np
 from acausal._jax import need_known, precision
 from acausal.analysis import Observer
 from acausal.errors import DataError, shown
-from acausal.events import before_events
 from acausal.export.c_text.code import write_code
 from acausal.export.c_text.header import header
 from acausal.export.c_text.source import source
@@ -166,17 +165,10 @@ def _name(title: str, name: str | None) -> str:
 
 def _start(system: System, params: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
     """States, and discrete variables, before the first event."""
-    packed = system.pack(params)
+    x = np.asarray(system.initial_state(params), float)
     if system.events is None:
-        return np.asarray(system.initial_state(params), float), np.zeros(0)
-    u = system.inputs_at(0.0, None)
-
-    def state(d: Any) -> Any:
-        return system.initializer(packed, None, u, 0.0, d=d)
-
-    blank = system.blank(packed, 0.0, u)
-    x = before_events(system.events, blank, state)[0]
-    return np.asarray(x, float), np.asarray(blank.d, float)
+        return x, np.zeros(0)
+    return x, np.asarray(system.blank(system.pack(params), 0.0).d, float)
 
 
 def _discrete(system: System) -> Iterator[str]:

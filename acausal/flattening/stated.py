@@ -295,12 +295,25 @@ class _Sorting:
                     "equal; compare by > or <"
                 )
             above = isinstance(relation, sp.Gt | sp.Ge)
-            lhs, rhs = literal(relation.lhs), literal(relation.rhs)
+            lhs, rhs = self._compared(relation.lhs), self._compared(relation.rhs)
             value: Any = lhs - rhs if above else rhs - lhs
             strict = isinstance(relation, sp.Gt | sp.Lt)
             target = self.known[relation] = self._new("bool", relation)
             self.guards.append(GuardStatement(target, self._ticking(value), str(relation), strict))
         return self.known[relation]
+
+    def _compared(self, expression: Any) -> Any:
+        """A side of a comparison: what makes it jump is an event of its own, if it is one or follows from time.
+
+        Else a search would leap over two jumps, and the instant of one would move with the rest of the comparison.
+        """
+        held = self._cases(expression)
+        replaced: dict[Any, Any] = {}
+        for node in _in_order(held.atoms(sp.floor, Relational)):
+            if time in node.free_symbols and not any(map(_is_unknown, node.free_symbols)):
+                is_floor = isinstance(node, sp.floor)
+                replaced[node] = self._floor(node.args[0], 1) if is_floor else self._truth(node)
+        return held.xreplace(replaced)
 
     def _floor(self, number: Any, _: Any) -> Reference:
         """The greatest integer not above a number, as a hidden variable.
@@ -419,3 +432,9 @@ def _in_order(expressions: Iterable[Any]) -> list[Any]:
 def _serial(symbol: Any) -> int:
     reference = symbol.reference if isinstance(symbol, Previous) else symbol
     return reference.serial if isinstance(reference, Reference) else -1
+
+
+def _is_unknown(symbol: Any) -> bool:
+    """Whether it is a variable that changes between events."""
+    declared = symbol.declaration if isinstance(symbol, Reference) else None
+    return isinstance(declared, Variable) and not isinstance(declared, Discrete)

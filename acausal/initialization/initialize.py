@@ -135,6 +135,13 @@ class Initializer(LeavesCaches):
         at = Values(array(t0), self.conditions.starts(packed), u0, packed, d)
         return self._solution(at, self.by_state(x0 or {}), steady, least_squares)[0]
 
+    def solves(self, x0: Any, steady: bool | Sequence[str], least_squares: bool) -> bool:
+        """Whether states follow from equations, and not from starts and ``x0`` alone."""
+        if len(self.reduced.guessed) or (x0 is not None and not isinstance(x0, Mapping)):
+            return len(self.reduced.guessed) > 0
+        starts = jnp.zeros(len(self.names))
+        return self._posed(starts, self.by_state(x0 or {}), steady, least_squares)[1] is not None
+
     def start_or_nan(
         self,
         packed: Packed,
@@ -154,10 +161,11 @@ class Initializer(LeavesCaches):
         t0: float = 0.0,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
+        d: Float[Array, " n_discrete"] | None = None,
     ) -> Initialization:
         """Initial states and how each was found; see `System.initialize`."""
         x0 = self.by_state(by_name(x0, "x0", "the states by name"))
-        at = Values(array(t0), self.conditions.starts(packed), u0, packed)
+        at = Values(array(t0), self.conditions.starts(packed), u0, packed, d)
         x, plan, rest, jacobian = self._solution(at, x0, steady, least_squares)
         roles = [
             "given" if name in x0 else "fixed" if fixed else "start"

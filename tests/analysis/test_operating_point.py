@@ -1,5 +1,6 @@
 """Operating points: where a model rests."""
 
+import jax
 import numpy as np
 import pytest
 
@@ -100,3 +101,38 @@ def test_a_fixed_start_must_be_one_of_rest() -> None:
     for data in (record, {"first": record, "second": record}):
         with pytest.raises(ac.InitializationError, match="does not rest at the fixed 'x'"):
             ac.fit(system, data, "x", modifiers=["k"], x0="steady", progress=False)
+
+
+class Relay(ac.Component):
+    """A lag that a relay behind another lag draws down: at rest it has switched, or there is no rest."""
+
+    u = ac.Input()
+    x, y = ac.Variable(), ac.Variable()
+    on = ac.Discrete(kind="bool")
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u - self.x - 2 * self.on)
+        yield ac.Eq(ac.der(self.y), self.x - self.y)
+        yield ac.Eq(self.on, self.y > 1)
+
+
+@pytest.mark.slow
+def test_a_model_with_events_rests_with_the_modes_that_belong_to_its_rest():
+    system, inputs = ac.compile(Relay()), {"u": 4.0}
+    point = ac.operating_point(system, inputs=inputs)
+    run = ac.simulate(system, 1.0, inputs=inputs, x0="steady")
+    np.testing.assert_allclose(point[["x", "y"]], [2, 2], rtol=1e-12)
+    np.testing.assert_allclose(run.x, [[2, 2]] * len(run.t), rtol=1e-9)
+    by_u = jax.jacobian(lambda u: system.initial_state(x0="steady", inputs={"u": u}))(4.0)
+    np.testing.assert_allclose(by_u, [1, 1], rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_a_model_whose_modes_contradict_its_rest_is_refused():
+    system, inputs = ac.compile(Relay()), {"u": 2.0}
+    for rest in (
+        lambda: ac.operating_point(system, inputs=inputs),
+        lambda: ac.simulate(system, 1.0, inputs=inputs, x0="steady"),
+    ):
+        with pytest.raises(ac.InitializationError, match=r"no discrete variables agree .* 'on'"):
+            rest()

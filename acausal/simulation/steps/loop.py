@@ -214,7 +214,11 @@ def advance(
             landing = cond_any(happens, begun, lambda: landing)
         dense, length = landing.within or (made.dense, aim.h)
         between = partial(method.between, dense, c.t, length)
-        saved, following = _save(between, problem.ts, saved, c, landing.t, happens, ok & runs)
+        until = landing.t
+        if seen is not None:  # what is saved at the time of an event, but for rounding, follows it
+            near = problem.apart(until + problem.field.shift(until))
+            until = jnp.where(happens & (stop.kind > JUMP), until - near, until)
+        saved, following = _save(between, problem.ts, saved, c, until, happens, ok & runs)
         if rows is not None:
             k = jnp.where(ok & runs, c.counts.steps - before, len(rows.t))  # beyond: dropped
             row = row._replace(next=following)

@@ -42,6 +42,38 @@ def test_a_clock_ticks_at_the_start_but_for_rounding():
     np.testing.assert_array_equal(sol["n"], [1, 1, 5])
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("dt", [None, 0.05])
+def test_what_is_saved_at_a_tick_but_for_rounding_follows_it(dt: float | None):
+    """3 * 0.1 is more than 0.3."""
+    times = np.round(np.linspace(0, 2, 21), 9)
+    run = ac.simulate(ac.compile(Clock()), (0.0, 2.0), saveat=times, dt=dt)
+    np.testing.assert_array_equal(run["n"], np.arange(1, 22))
+
+
+class Held(ac.Component):
+    """A sampled controller and its plant, whose state decays towards what is held."""
+
+    k = ac.Parameter(2.0)
+    x = ac.Variable(start=0.0, fixed=True)
+    u = ac.Discrete()
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u - self.x)
+        yield ac.When(ac.sample(0, 0.1), ac.Eq(self.u, self.k * (1 - self.x)))
+
+
+@pytest.mark.slow
+def test_a_fit_compares_what_is_measured_at_a_tick_with_what_follows_it():
+    t, x, u = np.round(np.linspace(0, 3, 31), 9), [0.0], [2.0]
+    for _ in t[1:]:
+        x.append((x[-1] - u[-1]) * np.exp(-0.1) + u[-1])
+        u.append(2.0 * (1 - x[-1]))
+    data = ac.Data(t, {"u": np.array(u)})
+    fit = ac.fit(ac.compile(Held()), data, ["u"], params={"k": 1.5}, modifiers=["k"])
+    assert abs(float(fit.params["k"]) - 2.0) < 1e-5
+
+
 EARLY = 1e-13
 
 

@@ -1,7 +1,11 @@
 """Integers that jump at events: `ac.floor` with ``events``."""
 
+from itertools import pairwise
+
+import jax
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import acausal as ac
 from acausal.flattening.flat_model import flatten
@@ -69,6 +73,55 @@ def test_a_start_that_is_an_instant_but_for_rounding(system):
 def test_without_other_events_it_stays_literal_on_request():
     assert len(flatten(Steps(events=None)).discrete) == 0
     assert len(flatten(Steps(events=False)).discrete) == 0
+
+
+class Modulated(ac.Component):
+    """Pulse width modulation: a sine against a saw tooth, whose jumps and the level's are literal."""
+
+    m = ac.Parameter(0.8)
+    f = ac.Parameter(2000.0)
+    late = ac.Parameter(0.003)
+    i = ac.Variable(start=0.0, fixed=True)
+
+    def equations(self):
+        saw = 2 * (self.f * ac.time - ac.floor(self.f * ac.time)) - 1
+        level = ac.where(ac.time >= self.late, self.m, 0.0)
+        above = level * ac.sin(100 * ac.pi * ac.time) > saw
+        yield ac.Eq(ac.der(self.i), ac.where(above, 100, -100, events=True))
+
+
+@pytest.mark.slow
+def test_jumps_of_time_within_a_condition_are_events():
+    """One search would leap over two of them, and the instants of none have derivatives by what it compares."""
+    m, f, late, end = 0.8, 2000.0, 0.003, 0.0323
+    marks = np.array([*np.arange(f * end) / f, late, end])
+    marks.sort()
+
+    def number(t: float, low: float) -> float:
+        middle = low + 1e-9
+        return (
+            m * (middle > late) * np.sin(100 * np.pi * t) - 2 * (f * t - np.floor(f * middle)) + 1
+        )
+
+    i, by_m = 0.0, 0.0
+    for low, high in pairwise(marks):
+        ends = number(low, low), number(high, low)
+        t = brentq(number, low, high, (low,), xtol=1e-16) if ends[0] > 0 > ends[1] else high
+        t = low if ends[0] <= 0 else t
+        i += 100 * (2 * t - low - high)
+        if low < t < high and low >= late:
+            slope = m * 100 * np.pi * np.cos(100 * np.pi * t) - 2 * f
+            by_m -= 200 * np.sin(100 * np.pi * t) / slope
+
+    system = ac.compile(Modulated())
+
+    def last(m: float) -> jax.Array:
+        params = {**system.parameters(), "m": m}
+        return ac.simulate(system, (0, end), params=params, saveat=[end])["i"][-1]
+
+    value, slope = jax.value_and_grad(last)(m)
+    assert float(value) == pytest.approx(i, abs=1e-9)
+    assert float(slope) == pytest.approx(by_m, rel=1e-6)
 
 
 class Counted(ac.Component):
