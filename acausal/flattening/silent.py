@@ -174,8 +174,8 @@ def in_steps(expression: Any) -> Any:
         (number,) = jumps.args
         if isinstance(jumps, sp.sign):
             return sp.Piecewise((1, sp.Gt(number, 0)), (-1, sp.Lt(number, 0)), (0, True))
-        up = isinstance(jumps, sp.ceiling)
-        return -Floored(-number, sp.S.Zero) if up else Floored(number, sp.S.Zero)
+        turn = sp.Integer(-1 if isinstance(jumps, sp.ceiling) else 1)
+        return sp.Mul(turn, Floored(turn * number, sp.S.Zero))
 
     def can_jump(part: Any) -> bool:
         return isinstance(part, sp.sign | sp.ceiling | sp.floor) and is_continuous(part)
