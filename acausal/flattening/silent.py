@@ -175,7 +175,8 @@ def in_steps(expression: Any) -> Any:
         if isinstance(jumps, sp.sign):
             return sp.Piecewise((1, sp.Gt(number, 0)), (-1, sp.Lt(number, 0)), (0, True))
         turn = sp.Integer(-1 if isinstance(jumps, sp.ceiling) else 1)
-        return sp.Mul(turn, Floored(turn * number, sp.S.Zero))
+        whole: Any = Floored(turn * number, sp.S.Zero)
+        return turn * whole
 
     def can_jump(part: Any) -> bool:
         return isinstance(part, sp.sign | sp.ceiling | sp.floor) and is_continuous(part)

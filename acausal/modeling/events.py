@@ -139,7 +139,8 @@ def where(condition_: Any, value: Any, otherwise: Any, *, events: bool | None = 
         value, otherwise: expressions or numbers.
         events: whether steps end where the condition changes. With False it is evaluated as it stands at every
             point, and a parameter that acts through the condition alone has no gradient, unless it is a comparison of
-            time. None: in models that have other events.
+            time; but a jump that a discrete variable or a condition of an event of the same component follows is an
+            event in any case. None: in models that have other events.
     """
     holds = condition(condition_, "the condition of where(...)")
     first, second = number_or_truth(value), number_or_truth(otherwise)
