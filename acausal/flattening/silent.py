@@ -187,8 +187,8 @@ def in_steps(expression: Any) -> Any:
 def changing(value: Any, stated: Sequence[Any]) -> Any:
     """A symbol by which the value of a discrete variable's equation changes between events, too; None: none is known.
 
-    Known are time, states of the same component, and what its equations give explicitly by these. What computes by
-    itself, such as a network or an FMU, is taken to know what it does.
+    Known are time, states of the same component, and what its equations give explicitly by these. What asks for values
+    before an event, for a tick or the start, or computes by itself, as a network does, is taken to know what it does.
     """
     sides = [(one.lhs, one.rhs) for one in stated if _is_literal(one)]
     states = {
@@ -197,11 +197,9 @@ def changing(value: Any, stated: Sequence[Any]) -> Any:
     seen, left = set[Any](), [value]
     while left:
         quiet = left.pop()
-        if quiet.has(ModuleCall):
+        if quiet.has(ModuleCall, Previous, Tick, INITIAL):
             continue
-        replaced = {p: p.reference for p in quiet.atoms(Previous)}
-        replaced |= dict.fromkeys([INITIAL, *quiet.atoms(Tick)], sp.S.Zero)
-        quiet = literal(in_steps(quiet).replace(Floored, lambda *_: sp.S.Zero).xreplace(replaced))
+        quiet = literal(in_steps(quiet).replace(Floored, lambda *_: sp.S.Zero))
         for symbol in sorted(_acting(quiet, with_events=False).free_symbols - seen, key=str):
             if symbol == time or symbol in states:
                 return symbol

@@ -93,7 +93,7 @@ class Slave(EventMode):
             self.time, event = step(self.time, target - self.time)
             if not self.time < target - 1e-9 * abs(target):
                 self.time = target
-            if event or self.time >= self.due:
+            if event or self.time >= self.due - TOGETHER * max(1.0, abs(self.due)):
                 self._happen(ticks=self.time < end)
             if self.time == end:
                 self.steps += 1

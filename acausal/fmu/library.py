@@ -176,10 +176,9 @@ class SharedLibrary:
             given += [nothing, log, *([nothing] if steps else [])]
         kinds, values = zip(*given, strict=True)
         made = self.function(f"Instantiate{word}", *kinds, result=p)(*values)
-        if (
-            not made and steps and self.event_mode and not d.clocks
-        ):  # some say that they have it, and have not
-            self.event_mode = False
+        if not (made or d.clocks or self.instances) and steps and self.event_mode:
+            self.event_mode = False  # some say that they have it, and have not
+            self.messages.clear()
             return self.instantiate()
         if not made:
             raise FMUError(f"FMU: '{d.model}' gives no instance{self.said()}.")

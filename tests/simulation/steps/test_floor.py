@@ -129,7 +129,8 @@ class Counted(ac.Component):
 
     x = ac.Variable(start=0.0, fixed=True)
     n = ac.Discrete(0, kind="int")
-    side, at = ac.Discrete(0.0), ac.Discrete(0.0)
+    side, at, last = ac.Discrete(0.0), ac.Discrete(0.0), ac.Discrete(0.0)
+    past = ac.Discrete(0, kind="bool")
     halves = ac.Variable()
 
     def equations(self):
@@ -138,6 +139,9 @@ class Counted(ac.Component):
         yield ac.Eq(self.side, ac.sign(self.x - 1.5))
         yield ac.Eq(self.halves, ac.floor(2 * self.x))
         yield ac.When(self.halves > 2, ac.Eq(self.at, ac.time))
+        yield ac.Eq(self.past, self.x > 0.7)
+        now = (self.past > 0.5) & (ac.pre(self.past) < 0.5)
+        yield ac.Eq(self.last, ac.where(now, self.x, ac.pre(self.last)))
 
 
 def test_in_equations_of_discrete_variables_all_integers_jump_at_events():
@@ -146,3 +150,4 @@ def test_in_equations_of_discrete_variables_all_integers_jump_at_events():
     np.testing.assert_array_equal(sol["n"], np.floor(times))
     np.testing.assert_array_equal(sol["side"], np.sign(times - 1.5))
     np.testing.assert_allclose(sol["at"], np.where(times > 1.5, 1.5, 0.0), atol=1e-12)
+    np.testing.assert_allclose(sol["last"], np.where(times > 0.7, 0.7, 0.0), atol=1e-12)
