@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -533,14 +533,22 @@ class System(LeavesCaches):
         at = self.values(array(t0), array(np.zeros(len(self.states))), u, packed)
         return at._replace(d=self.initializer.conditions.discrete_start(packed))
 
-    def watching(self, names: Iterable[str]) -> System:
-        """The model in which the library's conditions are events, where parameters of these names act through such.
+    def watching(self) -> System:
+        """The model in which the library's conditions at which values jump are events: their instants have derivatives.
 
-        Without events their derivatives would be zero. `acausal.simulate` and `acausal.fit` ask for it where
-        derivatives by these parameters are wanted; else the model is simulated as it is, which is faster.
+        `acausal.simulate` and `acausal.fit` ask for it where derivatives may be wanted; else the model is simulated as
+        it is, which is faster. Of conditions that a user's class keeps literal it warns.
         """
-        silent = self.flat.silent
-        return self._watched if any(n in silent and silent[n].asked for n in names) else self
+        unseen = self.flat.unseen
+        literal = [one.sentence(name) for name, one in unseen.items() if not one.asked]
+        if literal and not self._has_warned:
+            vars(self)["_has_warned"] = True
+            warnings.warn(literal[0], stacklevel=user_level())
+        return self._watched if len(literal) < len(unseen) else self
+
+    @cached_property
+    def _has_warned(self) -> bool:
+        return False
 
     @cached_property
     def _watched(self) -> System:

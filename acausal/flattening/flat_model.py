@@ -44,6 +44,7 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
         module_values: value or factory of every module; an int refers to another module.
         outputs: output signals that nothing in the model takes.
         silent: by dotted name, parameters that act through conditions alone that are not events, and how.
+        unseen: by component, a condition that is no event, where values jump.
     """
 
     name: str
@@ -54,6 +55,7 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
     inputs: Integers
     module_values: tuple[Callable[..., Any] | int, ...]
     silent: Mapping[str, Silent]
+    unseen: Mapping[str, Silent]
     given: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     outputs: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
@@ -155,17 +157,21 @@ def _flat(model: Component, watch: bool) -> FlatModel:
         bindings=parameters.bindings,
         folded=np.append(parameters.folded, np.zeros(len(stated.constants), np.bool_)),
         module_values=module_values(layout),
-        silent=_silent(layout, statements),
+        silent=_silent(layout, statements, of_parameters=True),
+        unseen=_silent(layout, statements, of_parameters=False),
         outputs=model_outputs(layout, sets),
     )
 
 
-def _silent(layout: Layout, statements: Sequence[Stated]) -> dict[str, Silent]:
-    """The parameters that act through conditions alone, by dotted name."""
+def _silent(
+    layout: Layout, statements: Sequence[Stated], *, of_parameters: bool
+) -> dict[str, Silent]:
+    """The parameters that act through conditions alone, or these conditions by their components, by dotted name."""
     if not any(stated.silent for stated in statements):
         return {}
     return {
-        f"{path}.{one.parameter}" if path else one.parameter: one
+        f"{path}.{one.parameter}".strip("."): one
         for path, form in zip(layout.paths, layout.form_of, strict=True)
         for one in statements[form].silent
+        if bool(one.parameter) == of_parameters
     }

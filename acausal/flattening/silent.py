@@ -46,10 +46,10 @@ CLOSE = 1e-9
 
 @dataclass(frozen=True)
 class Silent:
-    """A parameter of a component that acts through a condition alone.
+    """A parameter of a component that acts through a condition alone; or a condition at which values jump.
 
     Attributes:
-        parameter: its local name. condition: in words.
+        parameter: its local name; empty for a condition, whose instant derivatives do not see. condition: in words.
         asked: whether this is as the class means it: the condition would be an event if the model had others
             (``events=None``), or the library keeps it literal.
     """
@@ -59,12 +59,18 @@ class Silent:
     asked: bool
 
     def sentence(self, name: str) -> str:
-        """What to say of the parameter, by its dotted name."""
+        """What to say of it, by the dotted name of the parameter, or of the condition's component."""
         remedy = (
             "compile the model by ac.compile(model, events=True)"
             if self.asked
             else "write ac.where(..., events=True)"
         )
+        if not self.parameter:
+            whose = f" of '{name}'" if name else ""
+            return (
+                f"Values jump at the condition {self.condition}{whose}, which is no event: derivatives do not see how "
+                f"its instant moves; {remedy}."
+            )
         return (
             f"The gradient by '{name}' is zero, as it acts through the condition {self.condition} alone, which is no "
             f"event; {remedy}."
@@ -74,7 +80,7 @@ class Silent:
 def silent_parameters(
     component: Component, stated: Sequence[Any], *, with_events: bool
 ) -> tuple[Silent, ...]:
-    """The parameters of a component that act through conditions alone at which values jump, unseen by derivatives.
+    """What derivatives do not see: conditions of a component at which values jump; parameters that act by them alone.
 
     Arguments:
         component: whose equations are looked at. stated: all that it states.
@@ -83,20 +89,22 @@ def silent_parameters(
     sides = [s for one in stated if _is_literal(one) for s in (one.lhs, one.rhs)]
     cased = [number_or_truth(s) for s in sides if s.has(sp.Piecewise, Watched)]
     relations = {r for s in cased for r in s.atoms(Relational)}
-    if not any(_parameters(r, component) and _changes(r) for r in relations):
+    if not any(map(_changes, relations)):
         return ()
     ours = type(component).__module__.startswith(LIBRARY)
-    found: dict[Reference, Silent] = {}
+    found: dict[Any, Silent] = {}
     visible: set[Any] | None = None
     for asked, condition, value, otherwise in _cases(cased, with_events):
         for relation in sorted(condition.atoms(Relational), key=str):
-            some = _parameters(relation, component)
-            if not some or not _changes(relation):
+            if not _changes(relation) or not _jumps(relation, value - otherwise):
                 continue
-            visible = _visible(component, stated, with_events) if visible is None else visible
-            unseen = [p for p in some if p not in found and p not in visible]
-            if unseen and _jumps(relation, value - otherwise):
-                found |= {p: Silent(p.path, str(relation), asked or ours) for p in unseen}
+            if asked or not ours:
+                found.setdefault(asked, Silent("", str(relation), asked))
+            some = _parameters(relation, component)
+            if some and visible is None:
+                visible = _visible(component, stated, with_events)
+            unseen = [p for p in some if p not in found and p not in (visible or ())]
+            found |= {p: Silent(p.path, str(relation), asked or ours) for p in unseen}
     return tuple(found.values())
 
 

@@ -128,8 +128,9 @@ def simulate(
     need_compiled(system, "simulate")
     need_double_precision()
     called = solver if isinstance(solver, str) else ""
-    if called != "bdf" and not isinstance(solver, solvers.BDF):
-        system = system.watching(traced_names(params))
+    is_bdf = called == "bdf" or isinstance(solver, solvers.BDF)
+    if not is_bdf and (traced_names(params) or traced(x0, inputs)):
+        system = system.watching()
     n_states = len(system.states)
     check_tolerances(rtol, ATOL if atol is None else atol, n_states)
     kind = precision(dtype)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -100,7 +100,7 @@ def prepare(
         {**entry(system.parameters(seed), options.prior), **(given or {})}
         for seed, given in zip(seeds, params, strict=True)
     ]
-    system = system.watching(_trained_numbers(options))
+    system = system.watching()
     given = data if isinstance(data, Stream) else records_of(data)
     arguments: dict[str, Any] = {
         "system": system, "data": given, "targets": targets, "options": options, "seeds": seeds, "params": params
@@ -133,10 +133,3 @@ def _prepared(arguments: Mapping[str, Any]) -> Training:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return prepare(**arguments)
-
-
-def _trained_numbers(options: FitOptions) -> tuple[str, ...]:
-    """The parameters that are trained beside networks."""
-    moved = options.modifiers
-    named = () if moved is None or isinstance(moved, Iterator) else tuple(moved)
-    return (*named, *(options.per_record or ()))

@@ -134,3 +134,42 @@ def test_a_training_finds_the_time_of_a_step() -> None:
         epochs=15,
     )
     assert fit.params["step.startTime"] == pytest.approx(0.5, abs=1e-2)
+
+
+class Slowed(ac.Component):
+    """A ramp that becomes slower where k times it passes the threshold of a block: 1, then 0.2 a second."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.ramp, self.gain = blocks.Integrator(), blocks.Gain(k=2.0)
+        self.passed = blocks.GreaterThreshold(threshold=1.0)
+        self.rate = blocks.BooleanToReal(realTrue=0.2, realFalse=1.0)
+        self.connect(self.ramp.y, self.gain.u)
+        self.connect(self.gain.y, self.passed.u)
+        self.connect(self.passed.y, self.rate.u)
+        self.connect(self.rate.y, self.ramp.u)
+
+
+def test_all_that_moves_the_instant_of_a_block_has_a_gradient() -> None:
+    """The end is y0 + t + 0.2 (2 - t) with t = threshold / k - y0."""
+    system = ac.compile(Slowed())
+    for name, exact in (("gain.k", -0.2), ("passed.threshold", 0.4), ("ramp.y_start", 0.2)):
+
+        def end(value: float, name: str = name) -> Any:
+            return ac.simulate(system, 2.0, params={name: value}, saveat=[2.0])["ramp.y"][0]
+
+        assert float(jax.grad(end)(float(system.parameters()[name]))) == pytest.approx(exact)
+
+
+def test_derivatives_over_a_literal_jump_are_warned_of() -> None:
+    system = ac.compile(Load(lambda s: ac.where(s.x > 0.5, s.k, 1)))
+
+    def end(x: float) -> Any:
+        return ac.simulate(system, 2.0, x0={"x": x}, saveat=[2.0])["x"][0]
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        end(0.0)
+    says = r"Values jump at the condition x > 0\.5, which is no event: derivatives do not see how"
+    with pytest.warns(UserWarning, match=says):
+        jax.grad(end)(0.0)
