@@ -141,7 +141,7 @@ class Slowed(ac.Component):
 
     def __init__(self) -> None:
         super().__init__()
-        self.ramp, self.gain = blocks.Integrator(), blocks.Gain(k=2.0)
+        self.ramp, self.gain = blocks.Integrator(y_start=0.0), blocks.Gain(k=2.0)
         self.passed = blocks.GreaterThreshold(threshold=1.0)
         self.rate = blocks.BooleanToReal(realTrue=0.2, realFalse=1.0)
         self.connect(self.ramp.y, self.gain.u)
