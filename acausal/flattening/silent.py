@@ -86,7 +86,9 @@ def silent_parameters(
         component: whose equations are looked at. stated: all that it states.
         with_events: whether the model has events, so that conditions with ``events=None`` are watched.
     """
-    sides = [s for one in stated if _is_literal(one) for s in (one.lhs, one.rhs)]
+    watched = deciding(stated) if with_events else ()
+    literals = [one for one in stated if _is_literal(one) and id(one) not in watched]
+    sides = [s for one in literals for s in (one.lhs, one.rhs)]
     cased = [number_or_truth(s) for s in sides if s.has(sp.Piecewise, Watched)]
     relations = {r for s in cased for r in s.atoms(Relational)}
     if not any(map(_changes, relations)):
@@ -110,12 +112,41 @@ def silent_parameters(
 
 def _is_literal(stated: Any) -> bool:
     """Whether this is an equation that holds at all times; in those of discrete variables, conditions are events."""
-    return isinstance(stated, Eq) and not _gives_discrete(stated)
+    return isinstance(stated, Eq) and discrete_side(stated) is None
 
 
-def _gives_discrete(equation: Eq) -> bool:
-    sides = (equation.lhs, equation.rhs)
-    return any(isinstance(s, Reference) and isinstance(s.declaration, Discrete) for s in sides)
+def discrete_side(equation: Eq) -> Reference | None:
+    """The discrete variable that an equation gives, if a side is one.
+
+    The right side only if the left one is not a variable: ``y = n`` with a discrete n gives y, ``der(x) = n`` gives x.
+    """
+    if any(s.has(der) for s in (equation.lhs, equation.rhs) if isinstance(s, sp.Basic)):
+        return None
+    for side in (equation.lhs, equation.rhs):
+        if isinstance(side, Reference) and isinstance(side.declaration, Variable):
+            return side if isinstance(side.declaration, Discrete) else None
+    return None
+
+
+def deciding(stated: Sequence[Any]) -> set[int]:
+    """The equations, by identity, of variables that conditions of events, and discrete variables, follow from."""
+    wanted: set[Any] = set()
+    rest: list[Eq] = []
+    for one in stated:
+        if isinstance(one, When):
+            wanted |= {s for link in one.chain() for c in link.conditions for s in c.free_symbols}
+        elif isinstance(one, Eq):
+            sides = [number_or_truth(s) for s in (one.lhs, one.rhs)]
+            if discrete_side(one) is None:
+                rest.append(one)
+                sides = [w.args[0] for s in sides for w in s.atoms(Watched)]
+            wanted |= {symbol for side in sides for symbol in side.free_symbols}
+    found: set[int] = set()
+    while more := [e for e in rest if id(e) not in found and wanted & {e.lhs, e.rhs}]:
+        found |= {id(e) for e in more}
+        sides = [number_or_truth(s) for e in more for s in (e.lhs, e.rhs)]
+        wanted |= {symbol for side in sides for symbol in side.free_symbols}
+    return found
 
 
 def _cases(sides: Sequence[Any], with_events: bool) -> Iterator[tuple[bool, Any, Any, Any]]:

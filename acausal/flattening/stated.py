@@ -15,7 +15,15 @@ from sympy.core.relational import Relational
 
 from acausal.errors import DeclarationError
 from acausal.flattening.origin import HIDDEN
-from acausal.flattening.silent import Silent, changing, has_jumps, in_steps, is_continuous
+from acausal.flattening.silent import (
+    Silent,
+    changing,
+    deciding,
+    discrete_side,
+    has_jumps,
+    in_steps,
+    is_continuous,
+)
 from acausal.modeling import (
     HALF,
     INITIAL,
@@ -30,7 +38,6 @@ from acausal.modeling import (
     Variable,
     Watched,
     When,
-    der,
     literal,
     number_or_truth,
     time,
@@ -133,13 +140,13 @@ class _Sorting:
         """All of it, each where it belongs."""
         equations: list[Eq] = []
         whens = [one for one in stated if isinstance(one, When)]
-        deciding = _deciding(stated)
+        decide = deciding(stated)
         for one in stated:
             if isinstance(one, When):
                 continue  # after all others, whose comparisons it may repeat
             if not isinstance(one, Eq):
                 equations.append(one)  # refused where templates are made
-            elif (target := _discrete_side(one)) is not None:
+            elif (target := discrete_side(one)) is not None:
                 value = one.rhs if target is one.lhs else one.lhs
                 if (by := changing(number_or_truth(value), stated)) is not None:
                     raise DeclarationError(
@@ -149,7 +156,7 @@ class _Sorting:
                     )
                 self._update(target, self._watched(number_or_truth(value)), _written(one, target))
             else:
-                equations.append(self._continuous(one, decides=id(one) in deciding))
+                equations.append(self._continuous(one, decides=id(one) in decide))
         for one in whens:
             self._when(one)
         return Stated(
@@ -209,7 +216,7 @@ class _Sorting:
                     value = self._at_event(statement.value)
                     jumps.setdefault(statement.state, []).append((value, happens))
                     continue
-                target = _discrete_side(statement)
+                target = discrete_side(statement)
                 if target is None:
                     raise DeclarationError(
                         f"{self.component._node.label}: {statement} stands in When(...), but neither side is a "
@@ -375,40 +382,6 @@ class _Sorting:
         declaration.name = path
         self.hidden.append((path, declaration))
         return Reference(self.component._node, path, declaration)
-
-
-def _discrete_side(equation: Eq) -> Reference | None:
-    """The discrete variable that an equation gives, if a side is one.
-
-    The right side only if the left one is not a variable: ``y = n`` with a discrete n gives y, ``der(x) = n`` gives x.
-    """
-    if any(s.has(der) for s in (equation.lhs, equation.rhs) if isinstance(s, sp.Basic)):
-        return None
-    for side in (equation.lhs, equation.rhs):
-        if isinstance(side, Reference) and isinstance(side.declaration, Variable):
-            return side if isinstance(side.declaration, Discrete) else None
-    return None
-
-
-def _deciding(stated: Sequence[Any]) -> set[int]:
-    """The equations, by identity, of variables that conditions of events, and discrete variables, follow from."""
-    wanted: set[Any] = set()
-    rest: list[Eq] = []
-    for one in stated:
-        if isinstance(one, When):
-            wanted |= {s for link in one.chain() for c in link.conditions for s in c.free_symbols}
-        elif isinstance(one, Eq):
-            sides = [number_or_truth(s) for s in (one.lhs, one.rhs)]
-            if _discrete_side(one) is None:
-                rest.append(one)
-                sides = [w.args[0] for s in sides for w in s.atoms(Watched)]
-            wanted |= {symbol for side in sides for symbol in side.free_symbols}
-    found: set[int] = set()
-    while more := [e for e in rest if id(e) not in found and wanted & {e.lhs, e.rhs}]:
-        found |= {id(e) for e in more}
-        sides = [number_or_truth(s) for e in more for s in (e.lhs, e.rhs)]
-        wanted |= {symbol for side in sides for symbol in side.free_symbols}
-    return found
 
 
 def _written(equation: Eq, target: Reference) -> str:
