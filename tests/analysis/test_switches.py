@@ -6,7 +6,7 @@ import pytest
 import acausal as ac
 from acausal.analysis import in_switches
 
-pytestmark = pytest.mark.filterwarnings("ignore:The gradient by")
+pytestmark = pytest.mark.filterwarnings("ignore:The gradient by", "ignore:Values jump at")
 
 
 class Switching(ac.Component):
