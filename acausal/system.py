@@ -555,7 +555,7 @@ class System(LeavesCaches):
         given = [self.flat.layout.variable(int(i)) for i in self.flat.given]
         names = [name for name in given if not is_hidden(name)]
         found = compile(self.model, inputs=names, check_units=False, events=True)
-        return self if found.events is None else found
+        return self if found.events is None or found.states != self.states else found
 
     def opened(self, points: Sequence[str]) -> tuple[System, tuple[str, ...]]:
         """The system in which some signals are inputs, as the connections that feed them are open; and what fed them.

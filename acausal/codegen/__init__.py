@@ -40,7 +40,6 @@ from acausal.codegen.packing import (
     bind as bind,
     default_parameters as default_parameters,
     pack as pack,
-    traced_names as traced_names,
 )
 from acausal.codegen.parameters import (
     ParameterLayout as ParameterLayout,

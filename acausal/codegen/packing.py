@@ -112,13 +112,6 @@ def bind(layout: ParameterLayout, free: Array) -> Array:
     return jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if len(arrays) > 1 else free
 
 
-def traced_names(params: object) -> list[str]:
-    """The numbers by name that JAX traces: derivatives by them may be wanted."""
-    if not isinstance(params, Mapping):
-        return []
-    return [str(name) for name, value in params.items() if isinstance(value, Tracer)]
-
-
 def _is_number(value: Any) -> bool:
     if isinstance(value, float | int):
         return isinstance(value, float) or abs(value) < 2**1023

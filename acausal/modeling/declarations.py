@@ -154,7 +154,7 @@ class Variable(Declaration):
         super().__init__(unit=unit, shape=shape, when=when, doc=doc)
         if not isinstance(tear, str) or tear not in TEAR_SELECT:
             raise DeclarationError(f"tear={shown(tear)} must be one of {', '.join(TEAR_SELECT)}")
-        need_text(state, "state", DeclarationError)
+        need_text(state, f"{type(self).__name__}: state", DeclarationError)
         self.start, self.fixed, self.nominal, self.state = start, fixed, nominal, state
         self.tear = tear
 

@@ -17,7 +17,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
 from acausal._jax import array, is_real, known, need_double_precision, precision, select, traced
-from acausal.codegen import traced_names
+from acausal.codegen import Packed
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
 from acausal.events import PART_OF_PERIOD
@@ -129,7 +129,7 @@ def simulate(
     need_double_precision()
     called = solver if isinstance(solver, str) else ""
     is_bdf = called == "bdf" or isinstance(solver, solvers.BDF)
-    if not is_bdf and (traced_names(params) or traced(x0, inputs)):
+    if not is_bdf and any(map(_has_traced, (params, x0, inputs))):
         system = system.watching()
     n_states = len(system.states)
     check_tolerances(rtol, ATOL if atol is None else atol, n_states)
@@ -233,6 +233,12 @@ def _warn_of_few_points(solution: Solution, span: float) -> None:
             f"{period:.3g} s, which curves do not show. Give saveat=..., or a shorter span.",
             stacklevel=user_level(),
         )
+
+
+def _has_traced(given: object) -> bool:
+    """Whether JAX traces some of what is given by name, or in a row: derivatives by it may be wanted."""
+    values = given.values() if isinstance(given, Mapping) else (given,)
+    return not isinstance(given, Packed) and any(map(traced, values))
 
 
 def _span(t: float | tuple[float, float]) -> tuple[float, float]:

@@ -448,7 +448,6 @@ options(
             "negative": -1e-6,
             "nan": NAN,
             "a text": "fine",
-            "none": None,
             "complex": 1e-6j,
             "an object": object(),
             "a list": [1e-6] * 9,
@@ -457,6 +456,7 @@ options(
     },
     {
         "an array of one for each": lambda c: jnp.full(len(c.system.states), 1e-6),
+        "none": const(None),
     },
     ("tolerance", "stopped"),
     **NO_DT,
