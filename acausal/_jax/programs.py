@@ -44,7 +44,7 @@ _programs: OrderedDict[tuple[Any, ...], KeptProgram] = OrderedDict()
 def compiled(function: Callable[P, Result]) -> Callable[P, Result]:
     """The function, compiled by `jax.jit`: arrays are traced, and what else there is in its arguments is constant.
 
-    That can be hashed; the function is pure, and its result consists of arrays.
+    What is constant can be hashed; the function is pure, and its result consists of arrays.
     """
 
     @wraps(function)

@@ -109,10 +109,8 @@ def connection_groups(layout: Layout, connected: ConnectionSets) -> tuple[Equati
     zero = _unconnected_flows(layout, connected.pairs)
     groups = [*equalities(equal)]
     for inner, rows in sums.items():
-        template = balance(
-            tuple(-1 if i else 1 for i in inner)
-        )  # an inner side's flow counts negatively
-        groups.append(_group(template, np.asarray(rows), "connected: flows sum to zero"))
+        signs = tuple(-1 if i else 1 for i in inner)  # an inner side's flow counts negatively
+        groups.append(_group(balance(signs), np.asarray(rows), "connected: flows sum to zero"))
     groups.append(_group(balance((1,)), zero[:, None], "unconnected: no flow"))
     return tuple(g for g in groups if len(g))
 

@@ -176,8 +176,7 @@ def _parameters(relation: Any, component: Component) -> list[Reference]:
 
 def _changes(relation: Any) -> bool:
     """Whether a relation can change in a run, at a time that is not known ahead (see `acausal.codegen.Edges`)."""
-    declared = [s.declaration for s in relation.free_symbols if isinstance(s, Reference)]
-    if any(isinstance(d, Variable) and not isinstance(d, Discrete) for d in declared):
+    if any(map(is_unknown, relation.free_symbols)):
         return True
     number = relation.lhs - relation.rhs
     floors = number.atoms(sp.floor)
@@ -196,14 +195,16 @@ def has_jumps(side: Any) -> bool:
 
 def is_continuous(expression: Any) -> bool:
     """Whether a comparison, or a number, can change between events."""
-    for symbol in expression.free_symbols:
-        if symbol == time:
-            return True
-        if isinstance(symbol, Reference):
-            declared = symbol.declaration
-            if isinstance(declared, Variable) and not isinstance(declared, Discrete):
-                return True
-    return bool(expression.has(sp.Function) and not expression.free_symbols)
+    symbols = expression.free_symbols
+    if time in symbols or any(map(is_unknown, symbols)):
+        return True
+    return bool(expression.has(sp.Function) and not symbols)
+
+
+def is_unknown(symbol: Any) -> bool:
+    """Whether it is a variable that changes between events."""
+    declared = symbol.declaration if isinstance(symbol, Reference) else None
+    return isinstance(declared, Variable) and not isinstance(declared, Discrete)
 
 
 def in_steps(expression: Any) -> Any:

@@ -23,6 +23,7 @@ from acausal.flattening.silent import (
     has_jumps,
     in_steps,
     is_continuous,
+    is_unknown,
 )
 from acausal.modeling import (
     HALF,
@@ -317,7 +318,7 @@ class _Sorting:
         held = self._cases(expression)
         replaced: dict[Any, Any] = {}
         for node in _in_order(held.atoms(sp.floor, Relational)):
-            if time in node.free_symbols and not any(map(_is_unknown, node.free_symbols)):
+            if time in node.free_symbols and not any(map(is_unknown, node.free_symbols)):
                 is_floor = isinstance(node, sp.floor)
                 replaced[node] = self._floor(node.args[0], 1) if is_floor else self._truth(node)
         return held.xreplace(replaced)
@@ -405,9 +406,3 @@ def _in_order(expressions: Iterable[Any]) -> list[Any]:
 def _serial(symbol: Any) -> int:
     reference = symbol.reference if isinstance(symbol, Previous) else symbol
     return reference.serial if isinstance(reference, Reference) else -1
-
-
-def _is_unknown(symbol: Any) -> bool:
-    """Whether it is a variable that changes between events."""
-    declared = symbol.declaration if isinstance(symbol, Reference) else None
-    return isinstance(declared, Variable) and not isinstance(declared, Discrete)

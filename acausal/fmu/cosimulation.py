@@ -17,7 +17,7 @@ from acausal._jax import HostError
 from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import STEP, Differentiated, Numbers
 from acausal.fmu.description import REAL
-from acausal.fmu.event_mode import TOGETHER, EventMode
+from acausal.fmu.event_mode import EventMode, rounding
 from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DISCARD, FATAL, FMUError
@@ -86,14 +86,14 @@ class Slave(EventMode):
             FMUError: where the FMU does not get there.
         """
         step = self._step_2 if self.library.is_2 else self._step_3
-        before = end - TOGETHER * max(1.0, abs(end))
+        before = end - rounding(end)
         for _ in range(RETURNS):
             self.check_time(end)
             target = self.due if self.time < self.due < before else end
             self.time, event = step(self.time, target - self.time)
             if not self.time < target - 1e-9 * abs(target):
                 self.time = target
-            if event or self.time >= self.due - TOGETHER * max(1.0, abs(self.due)):
+            if event or self.time >= self.due - rounding(self.due):
                 self._happen(ticks=self.time < end)
             if self.time == end:
                 self.steps += 1

@@ -25,6 +25,11 @@ UNKNOWN, UNCHANGED, CHANGED = range(3)
 """What FMI 3.0 says of the interval of a clock."""
 
 
+def rounding(time: float) -> float:
+    """By how much instants at some time may differ and be one."""
+    return TOGETHER * max(1.0, abs(time))
+
+
 class Info(NamedTuple):
     """What an FMU says of an event: when time events and clocks come next, and whether its states have jumped."""
 
@@ -108,7 +113,7 @@ class EventMode(Instance):
         return number.value
 
     def _due(self, time: float) -> list[FMUVariable]:
-        until = time + TOGETHER * max(1.0, abs(time))
+        until = time + rounding(time)
         return [v for v in self._timed if self.ticks[v.name] <= until]
 
     def _schedule(self, time: float, active: Iterable[str]) -> None:
