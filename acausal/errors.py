@@ -87,6 +87,11 @@ def shown(value: object, limit: int = 80) -> str:
     return shortened(" ".join((title if is_title else text).split()), limit)
 
 
+def percent(share: float) -> str:
+    """A share for a message: in percent, with two digits, as many as it has from a hundred on."""
+    return f"{100 * share:.2g} %" if abs(share) < 0.995 else f"{100 * share:.0f} %"
+
+
 def listing(names: Iterable[object], limit: int = 12) -> str:
     """Join names for a message: quoted, at most `limit`, the rest counted."""
     quoted = [f"'{shortened(name)}'" for name in names]

@@ -23,6 +23,7 @@ from acausal.errors import (
     known_name,
     listing,
     need_whole,
+    percent,
     shown,
 )
 from acausal.modeling import names_in
@@ -153,7 +154,7 @@ class Distilled:
     def __repr__(self) -> str:
         low, high = self.interval
         return (
-            f"{self.expression}   (error {self.error:.3g}, {100 * self.relative_error:.2g} %, "
+            f"{self.expression}   (error {self.error:.3g}, {percent(self.relative_error)}, "
             f"for x from {low:.3g} to {high:.3g})"
         )
 

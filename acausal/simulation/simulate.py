@@ -249,7 +249,8 @@ def _span(t: float | tuple[float, float]) -> tuple[float, float]:
         start, end = (float(v) for v in cast(tuple[float, float], both))
     except (TypeError, ValueError):
         raise DataError(
-            f"t={shown(t)} is not a span of time; give (start, end) in seconds, or the end."
+            f"t={shown(t)} is not a span of time; give (start, end) in seconds, or the end, "
+            "and times to save as saveat=..."
         ) from None
     if not (np.isfinite(start) and np.isfinite(end) and end > start):
         raise DataError(

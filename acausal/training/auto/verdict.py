@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.errors import TrainingError, listing
+from acausal.errors import TrainingError, listing, percent
 from acausal.networks import OffsetCorrected
 from acausal.simulation import EXPLICIT
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
@@ -83,15 +83,15 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     if down:
         first = f"explains the record {'nearly ' * bool(left)}down to its noise."
     elif good:
-        first = f"explains all but {100 * share:.2g} % of the targets; the noise is {100 * noise / level:.2g} %."
+        first = f"explains all but {percent(share)} of the targets; the noise is {percent(noise / level)}."
     elif not np.isfinite(fit.loss):
         first = "does not explain the record: the trained model diverges over it."
     elif share >= MEAN:
         first = f"does not explain the record: a loss of {fit.loss:.3g} is no better than the targets' means."
     else:
         first = (
-            f"does not explain the record: it leaves {100 * share:.2g} % of the targets, "
-            f"the noise is {100 * noise / level:.2g} %."
+            f"does not explain the record: it leaves {percent(share)} of the targets, "
+            f"the noise is {percent(noise / level)}."
         )
     loose = list(_hardly_determined(fit)) if good else []
     good = good and not loose and (share <= SMALL or not left)
@@ -115,15 +115,15 @@ def verdict(fit: TrainedModel) -> Verdict | None:
         and (times := sensitivity(problem, fit.trained, simulated)) > SENSITIVE
     ):
         others.append(
-            f"The model is sensitive: starts that are off by {100 * OFF:.2g} % change the targets by "
-            f"{100 * OFF * times:.2g} %, so no law follows the whole record. Judge its laws over "
+            f"The model is sensitive: starts that are off by {percent(OFF)} change the targets by "
+            f"{percent(OFF * times)}, so no law follows the whole record. Judge its laws over "
             "shorter parts (data.between)."
         )
     elif not steps and not np.isfinite(fit.step_error or 0.0):
         others.append("In steps of half the length the model diverges: take a smaller dt.")
     elif not steps and fit.step_error is not None:
         others.append(
-            f"Its steps err by {100 * fit.step_error / level:.2g} % of the targets: take a smaller dt."
+            f"Its steps err by {percent(fit.step_error / level)} of the targets: take a smaller dt."
         )
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
     if fit.without_constant:
@@ -168,14 +168,14 @@ def _doubt(fit: TrainedModel, name: str, band: Band) -> str | None:
     even, over = seen & ~band.steep, doubt / np.where(band.steep, STEEP, LOOSE)
     if even.any() and (usual := float(np.median(doubt[even]))) > LOOSE:
         return (
-            f"The record hardly determines {name}: it is known to {100 * usual:.2g} % of its range only "
+            f"The record hardly determines {name}: it is known to {percent(usual)} of its range only "
             "(two standard deviations). Measure more, or where it matters more."
         )
     if not over[seen].max() > 1:
         return None
     k = int(np.argmax(np.where(seen, over, 0.0)))
     return (
-        f"{name} is known to {100 * doubt[k]:.2g} % of its range only near {band.x[k]:.2g} (two standard "
+        f"{name} is known to {percent(doubt[k])} of its range only near {band.x[k]:.2g} (two standard "
         f"deviations){', where it is steep' * bool(band.steep[k])}. Measure more there."
     )
 

@@ -9,7 +9,7 @@ from itertools import starmap
 import numpy as np
 from jaxtyping import Bool, Float
 
-from acausal.errors import listing
+from acausal.errors import listing, percent
 from acausal.reporting import Curve, Html, View, small_plot
 from acausal.training.objective.prior import Prior
 
@@ -182,7 +182,7 @@ class Confidence:
     def _ignored(self) -> list[str]:
         """What the deviations do not count."""
         bad = [
-            f"The residuals of '{n}' leave {100 * left:.2g} % of it unexplained beside noise: the deviations tell "
+            f"The residuals of '{n}' leave {percent(left)} of it unexplained beside noise: the deviations tell "
             "how well the data determine a model that does not follow them, not how far it is from the truth."
             for n, left in self.unexplained.items()
             if left > BAD
@@ -201,9 +201,9 @@ class Confidence:
 
 def _law_known(name: str, band: Band) -> str:
     """How well a law is known, in a sentence."""
-    doubt = 200 * band.sigma / (np.ptp(band.law) or 1.0)
-    worst = int(np.argmax(doubt))
+    doubt = 2 * band.sigma / (np.ptp(band.law) or 1.0)
+    worst, usual = int(np.argmax(doubt)), float(np.median(doubt))
     return (
-        f"'{name}' is known to {np.median(doubt):.2g} % of its range, at worst to {doubt[worst]:.2g} % near "
+        f"'{name}' is known to {percent(usual)} of its range, at worst to {percent(doubt[worst])} near "
         f"{band.x[worst]:.2g} (two sigma)."
     )

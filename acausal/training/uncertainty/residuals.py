@@ -11,6 +11,7 @@ from jaxtyping import Float
 from scipy.signal import correlate
 
 from acausal.data import noise_level
+from acausal.errors import percent
 
 LAGS = 50
 """The largest lag at which correlations are computed."""
@@ -89,7 +90,7 @@ class Residuals:
 
     def _grade(self, why: str) -> str:
         """How much is left to explain, and what to make of it."""
-        left = f"{100 * self.unexplained:.2g} % of it"
+        left = f"{percent(self.unexplained)} of it"
         if self.unexplained < max(LITTLE, self.noise / 2):
             return f"{left} could still be explained, which is little."
         if self.unexplained < MUCH:
