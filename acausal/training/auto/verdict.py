@@ -175,7 +175,7 @@ def _doubt(fit: TrainedModel, name: str, band: Band) -> str | None:
         return None
     k = int(np.argmax(np.where(seen, over, 0.0)))
     return (
-        f"{name} is known to {percent(doubt[k])} of its range only near {band.x[k]:.2g} (two standard "
+        f"{name} is known to {percent(doubt[k])} of its range only near {band.x[k]:.3g} (two standard "
         f"deviations){', where it is steep' * bool(band.steep[k])}. Measure more there."
     )
 

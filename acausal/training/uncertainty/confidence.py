@@ -205,5 +205,5 @@ def _law_known(name: str, band: Band) -> str:
     worst, usual = int(np.argmax(doubt)), float(np.median(doubt))
     return (
         f"'{name}' is known to {percent(usual)} of its range, at worst to {percent(doubt[worst])} near "
-        f"{band.x[worst]:.2g} (two sigma)."
+        f"{band.x[worst]:.3g} (two sigma)."
     )
