@@ -36,7 +36,7 @@ from acausal.codegen import (
     fill,
     read_elements,
 )
-from acausal.events.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk, is_straight
+from acausal.events.lines import BENT, NOTHING, Ahead, Line, Walk, has_edges, is_straight
 from acausal.flattening import LeavesCaches
 from acausal.modeling import time
 
@@ -168,7 +168,7 @@ class Edges(LeavesCaches):
         for part in self._parts:
             timed = self._symbols(part, self._timed)
             nodes = sp.preorder_traversal(part.expression)
-            if any(isinstance(n, EDGED) and n.free_symbols & timed for n in nodes):
+            if any(has_edges(n) and n.free_symbols & timed for n in nodes):
                 found.append(part)
         return tuple(found)
 

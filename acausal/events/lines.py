@@ -1,7 +1,8 @@
 """Walk through a formula of time: what is a line until the next edge, and where the edges are.
 
 Between two edges, what a source computes is often a line ``at_zero + rate * t``: of its comparisons, whole numbers and
-tables the next change is then known. A sine gives no edge, but bounds the steps.
+tables the next change is then known. A sine gives no edge, but bounds the steps. A smooth bump or step of a line has an
+edge in its middle, lest a step of the solver leaps over it.
 """
 
 from __future__ import annotations
@@ -27,6 +28,9 @@ SIGNS = (sp.Abs, sp.sign, sp.Heaviside)
 EXTREMES = (sp.Max, sp.Min)
 ROUNDING = 4.0
 """So many rounding errors is the argument of a table uncertain."""
+
+STEEP = (sp.tanh, sp.cosh, sp.atan)
+"""What rises, or has its least value, around an argument of zero."""
 
 EDGED = (Relational, ModuleCall, *WAVES, *STEPS, *SIGNS, *EXTREMES)
 """What gives an edge or a bound where its arguments depend on time."""
@@ -78,6 +82,21 @@ class Line(NamedTuple):
     def at(self, t: ArrayLike) -> Any:
         """The value at a time."""
         return self.at_zero if self.constant else self.at_zero + self.rate * t
+
+
+def has_edges(node: Any) -> bool:
+    """Whether an expression gives an edge or a bound itself, where its arguments depend on time."""
+    return isinstance(node, EDGED) or bool(_middles(node))
+
+
+def _middles(node: Any) -> list[Any]:
+    """What is zero in the middle of a smooth bump or step: exp(-x²), 1/(1 + x²), tanh(x)."""
+    if isinstance(node, STEEP):
+        return [node.args[0]]
+    if isinstance(node, sp.exp) or (isinstance(node, sp.Pow) and node.exp.is_negative):
+        powers = node.args[0].atoms(sp.Pow)
+        return [p.base for p in powers if p.exp.is_even and p.exp.is_positive]
+    return []
 
 
 def is_straight(node: Any, timed: set[sp.Symbol]) -> bool:
@@ -132,6 +151,8 @@ class Walk:
         for kinds, rule in _EDGES:
             if isinstance(node, kinds):
                 found = found.joined(rule(self, node))
+        for middle in _middles(node):
+            found = found.joined(self._meeting(middle, sp.S.Zero).bent())
         return found
 
     def _cases(self, node: Any) -> Ahead:

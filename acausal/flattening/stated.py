@@ -221,7 +221,7 @@ class _Sorting:
                 if target is None:
                     raise DeclarationError(
                         f"{self.component._node.label}: {statement} stands in When(...), but neither side is a "
-                        "discrete variable; declare it as ac.Discrete"
+                        "discrete variable; declare it as ac.Discrete, or let a state jump by ac.Reinit"
                     )
                 value = statement.rhs if target is statement.lhs else statement.lhs
                 value = self._at_event(number_or_truth(value))

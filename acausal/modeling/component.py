@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 from acausal.errors import ConnectionError, DeclarationError, nearest, need_text, shown
 from acausal.modeling.budget import charge
 from acausal.modeling.connector import Connector, check_name
-from acausal.modeling.declarations import Declaration, element_name
+from acausal.modeling.declarations import Declaration, element_name, is_number
 from acausal.modeling.documentation import (
     DocumentationOf,
     SignatureOf,
@@ -192,6 +192,8 @@ class Component:
         else:
             if name not in self._node.constants:
                 self._claim(name, is_new=hasattr(Component, name))
+                if self._node.parent is not None and is_number(value):
+                    self.modify(**{name: value})  # of a part that is finished: refused
             self._node.constants[name] = value
             object.__setattr__(self, name, value)
 

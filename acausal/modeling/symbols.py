@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from copy import copy
 from dataclasses import dataclass, field
 from itertools import count
+from types import FrameType
 from typing import Any, Protocol
 
 import numpy as np
@@ -25,7 +26,23 @@ HALF = sp.Rational(1, 2)
 COMPARED_WITH = (bool, int, float, np.number, sp.Expr)
 WITHIN = ("acausal", "numpy", "sympy")
 
-time = sp.Symbol("time", real=True)
+
+class Time(sp.Symbol):
+    """The symbol of time. Models differentiate by it with `der`: to sympy, their variables do not depend on it."""
+
+    @property
+    def _diff_wrt(self) -> bool:  # pyright: ignore[reportIncompatibleVariableOverride]
+        frame = sys._getframe(1)
+        while frame.f_back is not None and _package(frame) == "sympy":
+            frame = frame.f_back
+        if _package(frame) != "acausal":
+            raise DeclarationError(
+                "diff(time) takes variables for constants, so that it is zero; a derivative in time is ac.der(...)"
+            )
+        return True
+
+
+time = Time("time", real=True)
 """The independent variable, in seconds."""
 
 
@@ -96,8 +113,12 @@ class Compared(sp.Symbol):
 
 def _is_within() -> bool:
     """Whether the function that called this was called by sympy, NumPy or this package."""
-    caller = sys._getframe(2).f_globals.get("__name__", "")
-    return caller.partition(".")[0] in WITHIN
+    return _package(sys._getframe(2)) in WITHIN
+
+
+def _package(frame: FrameType) -> str:
+    """The package of the code that runs in a frame."""
+    return frame.f_globals.get("__name__", "").partition(".")[0]
 
 
 class Reference(Compared):

@@ -393,3 +393,22 @@ def test_a_component_shows_its_values_connectors_and_parts():
     model.mass = Mass(m=1.0)
     assert str(model) == "Model\n  parts      mass (Mass)"
     assert repr(model.mass).startswith("Mass 'mass'\n")
+
+
+def test_a_part_takes_no_number_under_a_name_that_it_lacks() -> None:
+    model = ac.Component()
+    model.resistor = Resistor(R=100.0)
+    with pytest.raises(ac.DeclarationError, match=r"resistor.* has no 'r': did you mean 'R'\?"):
+        model.resistor.r = 400.0
+    model.resistor.R = 400.0
+
+
+def test_variables_are_not_differentiated_by_sympy() -> None:
+    class Decay(ac.Component):
+        x = ac.Variable(start=1.0)
+
+        def equations(self):
+            yield ac.Eq((2 * self.x).diff(ac.time), -self.x)
+
+    with pytest.raises(ac.DeclarationError, match=r"a derivative in time is ac\.der"):
+        ac.compile(Decay())

@@ -229,3 +229,21 @@ def test_the_longest_step_is_a_choice():
         for longest in (np.inf, None, 0.01)
     }
     assert steps[np.inf] < 20 < 50 <= steps[None] < 100 <= steps[0.01]
+
+
+def test_smooth_bumps_and_steps_of_time_are_seen():
+    bumps = {
+        "a": lambda t: ac.exp(-(((t - 3.3337) / 1e-3) ** 2)) / (1e-3 * np.sqrt(np.pi)),
+        "b": lambda t: 1e3 / (np.pi * (1 + ((t - 7.1) / 1e-3) ** 2)),
+        "c": lambda t: (ac.tanh((t - 5.2) / 1e-3) - ac.tanh((t - 5.21) / 1e-3)) / 0.02,
+    }
+
+    class Bumps(ac.Component):
+        a, b, c = (ac.Variable(start=0.0, fixed=True) for _ in bumps)
+
+        def equations(self):
+            yield from (ac.Eq(ac.der(getattr(self, n)), f(ac.time)) for n, f in bumps.items())
+
+    sol = ac.simulate(ac.compile(Bumps()), 10)
+    lorentz = (np.arctan(2.9e3) + np.arctan(7.1e3)) / np.pi
+    np.testing.assert_allclose([sol[n][-1] for n in "abc"], [1.0, lorentz, 1.0], rtol=1e-5)

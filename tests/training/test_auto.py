@@ -1,5 +1,6 @@
 """A model, a record and no options: the law comes out, or the fit says that it did not."""
 
+import re
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -369,6 +370,17 @@ def test_a_fit_names_the_parameter_that_what_is_left_looks_like() -> None:
     assert not fit.verdict.good
     assert "mass.m changed by -" in str(fit.verdict)
     assert "modifiers=['mass.m']" in str(fit.verdict)
+
+
+@pytest.mark.slow
+def test_a_fit_names_a_target_that_comes_late_though_the_law_takes_a_part() -> None:
+    record, late = data(), 0.04
+    delayed = {"mass.v": np.interp(record.time - late, record.time, record["mass.v"])}
+    late_data = ac.Data(record.time, {"push.f": record["push.f"], **delayed})
+    fit = ac.fit(trained().system, late_data, "mass.v", epochs=60, progress=False)
+    found = re.search(r"'mass\.v' came (\S+) s late: train it \(delays=", str(fit.verdict))
+    assert found is not None
+    assert 0.6 * late < float(found[1]) < 1.4 * late
 
 
 def test_a_law_that_is_not_known_where_it_is_steep_is_said_to_be() -> None:

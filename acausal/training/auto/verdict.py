@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-import jax
-import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
 
 from acausal.errors import TrainingError, listing, percent
 from acausal.networks import OffsetCorrected
 from acausal.simulation import EXPLICIT
+from acausal.training.auto.likely_causes import likely_causes
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
 from acausal.training.auto.step_choice import allowed_error, difference
 from acausal.training.objective.losses import LOSSES, noise_loss
@@ -26,12 +24,6 @@ DOWN_TO = 1.15
 
 SMALL = 0.01
 """and one of less than this part of the targets' deviation is small, whatever the noise."""
-
-LIKELY, FAR = 0.9, np.log(5)
-"""What is left looks like a change of a parameter if this part follows it, and the change is not by such a factor."""
-
-AT_ONCE = 16
-"""Parameters whose effects are computed at once."""
 
 LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
 """A law is hardly determined if two of its standard deviations are more than this part of its range, or the second part
@@ -100,7 +92,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
         not (down or share <= SMALL)
         and np.isfinite(fit.loss)
         and steps
-        and (sentence := _parameters(fit))
+        and (sentence := likely_causes(fit))
     ):
         others.append(sentence)
     bad = not good and np.isfinite(fit.loss)
@@ -192,49 +184,6 @@ def _left(fit: TrainedModel) -> Iterator[str]:
         elif each.bound < 1 and not each.is_white:
             largest = float(np.max(np.abs(each.own)))
             yield f"The residuals of {each.target} are not white, up to a correlation of {largest:.2g}."
-
-
-def _parameters(fit: TrainedModel) -> str | None:
-    """Which parameter, taken as known, what is left is most like a change of."""
-    problem, trainable = fit.problem, fit.trained
-    params, layout = problem.assemble(trainable), problem.system.layout
-    names = [
-        n
-        for n in layout.names
-        if n not in problem.modifiers.names
-        and n in params
-        and np.ndim(params[n]) == 0
-        and float(params[n]) != 0
-        and layout.why_not_free(n) is None
-    ]
-    if not names:
-        return None
-
-    def effect(direction: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
-        def after(step: Float[Array, ""]) -> Float[Array, "N n_targets"]:
-            moves = {
-                n: params[n] * jnp.exp(step * d) for n, d in zip(names, direction, strict=True)
-            }
-            return problem.predict(trainable, {**params, **moves})
-
-        return jax.jvp(after, (jnp.zeros(()),), (jnp.ones(()),))[1]
-
-    found = jax.jit(lambda rows: jax.lax.map(effect, rows, batch_size=AT_ONCE))(jnp.eye(len(names)))
-    sigma, weight = (np.asarray(a) for a in (problem.records.sigma, problem.records.weight))
-    effects = np.asarray(found) / sigma * (weight > 0)
-    left = np.asarray(problem.residuals(problem.predict(trainable, params))) / sigma
-    along, own = np.tensordot(effects, left, 2), np.sum(effects**2, axis=(1, 2))
-    with np.errstate(all="ignore"):
-        moves = np.where(own > 0, along / own, 0.0)
-        shares = np.where(np.abs(moves) < FAR, np.sqrt(moves * along / np.sum(left**2)), 0.0)
-    likely = [i for i in np.argsort(-shares)[:3] if shares[i] > LIKELY]
-    if not likely:
-        return None
-    changes = [f"{names[i]} changed by {100 * np.expm1(moves[i]):+.2g} %" for i in likely]
-    return (
-        f"What is left looks as if {' or '.join(changes)}: "
-        f"if you do not know it so well, train it, too (modifiers=['{names[likely[0]]}'])."
-    )
 
 
 def _constants(fit: TrainedModel) -> Iterator[str]:

@@ -72,18 +72,14 @@ def confidence(
         TrainingError: if the model diverges over a record.
     """
     change = changes(problem, trainable, seen)
-    left, jacobian = _sensitivity(problem, change)
+    left, jacobian = sensitivity(problem, change)
     if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
         raise TrainingError(
             "The trained model diverges over the record; its confidence cannot be computed."
         )
     noise = _noise(problem, left)
     effects = noise.relative(jacobian).reshape(left.size, len(change.scale))
-    ends = left.shape[1] * np.asarray(problem.records.first)[1:]
-    blocks = [
-        RecordJacobian(part[:, change.common], part[:, change.own])
-        for part in np.split(effects, ends)
-    ]
+    blocks = by_record(change, effects)
     onward = change.deviations * move(blocks, noise.relative(left).ravel())[0]
     error = noise.relative(_step_error(problem, trainable))
     step_move = move(blocks, error.ravel())[1]
@@ -123,7 +119,7 @@ def confidence(
     )
 
 
-def _sensitivity(
+def sensitivity(
     problem: Problem, change: Changes
 ) -> tuple[Float[np.ndarray, "N n_targets"], Float[np.ndarray, "N n_targets n"]]:
     """The residuals, and the Jacobian of the predictions."""
@@ -138,6 +134,15 @@ def _sensitivity(
 
     left, jacobian = run(problem)
     return np.asarray(left), np.asarray(jacobian)
+
+
+def by_record(change: Changes, effects: Float[np.ndarray, "rows n"]) -> list[RecordJacobian]:
+    """The Jacobian of each record, of that of all rows and targets, one after the other."""
+    ends = len(change.problem.targets) * np.asarray(change.problem.records.first)[1:]
+    return [
+        RecordJacobian(part[:, change.common], part[:, change.own])
+        for part in np.split(effects, ends)
+    ]
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,6 @@ memory grow with the number of records, not with its square.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -88,21 +87,41 @@ def move(
 
     What each record has for itself takes its part of the error first.
     """
-    ends = np.cumsum([0, *(len(b.common) for b in blocks)]).tolist()
-    rows: list[np.ndarray] = []
-    left: list[np.ndarray] = []
-    for block, (a, b) in zip(blocks, pairwise(ends), strict=True):
-        m = block.own.shape[1]
-        basis = np.linalg.qr(np.concatenate([block.own, np.eye(m)]))[0]  # with its prior
-        common = np.concatenate([block.common, np.zeros((m, block.common.shape[1]))])
-        shift = np.concatenate([error[a:b], np.zeros(m)])
-        rows.append(common - basis @ (basis.T @ common))
-        left.append(shift - basis @ (basis.T @ shift))
-    n = blocks[0].common.shape[1]
-    matrix = np.concatenate([*rows, np.eye(n)])  # the prior
+    rows, left = _without_own(blocks, error[:, None])
+    n = rows.shape[1]
+    matrix = np.concatenate([rows, np.eye(n)])  # the prior
     basis, root = np.linalg.qr(matrix)
-    along = basis[: len(matrix) - n].T @ np.concatenate(left)
+    along = basis[: len(rows)].T @ left[:, 0]
     return solve_triangular(root, along), float(np.linalg.norm(along))
+
+
+def untaken(
+    blocks: Sequence[RecordJacobian], errors: Float[np.ndarray, "rows k"]
+) -> Float[np.ndarray, "more k"]:
+    """What errors of the predictions leave where all numbers have taken their part; arguments as of `move`.
+
+    Rows for the prior follow those of the records: products of two results count what the numbers move by, too.
+    """
+    rows, left = _without_own(blocks, errors)
+    n = rows.shape[1]
+    basis = np.linalg.qr(np.concatenate([rows, np.eye(n)]))[0]
+    left = np.concatenate([left, np.zeros((n, left.shape[1]))])
+    return left - basis @ (basis.T @ left)
+
+
+def _without_own(
+    blocks: Sequence[RecordJacobian], errors: Float[np.ndarray, "rows k"]
+) -> tuple[Float[np.ndarray, "more n"], Float[np.ndarray, "more k"]]:
+    """The rows of what all records have in common, and errors, less what each record's own numbers take of them."""
+    ends = np.cumsum([len(b.common) for b in blocks])[:-1]
+    found: list[np.ndarray] = []
+    for block, error in zip(blocks, np.split(errors, ends), strict=True):
+        m, both = block.own.shape[1], np.concatenate([block.common, error], axis=1)
+        basis = np.linalg.qr(np.concatenate([block.own, np.eye(m)]))[0]  # with its prior
+        both = np.concatenate([both, np.zeros((m, both.shape[1]))])
+        found.append(both - basis @ (basis.T @ both))
+    rows, left = np.split(np.concatenate(found), [blocks[0].common.shape[1]], axis=1)
+    return rows, left
 
 
 def _triangle(block: RecordJacobian) -> Float[np.ndarray, "k m+n"]:

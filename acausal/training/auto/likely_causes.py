@@ -1,0 +1,151 @@
+"""What residuals look like: a parameter that is taken as known and is not, or targets that come late.
+
+Each such cause moves the predictions in a direction. What was trained has taken a part of that already, as far as it
+can: laws, parameters and starts. So the residuals are compared with the rest of the direction, which is what the cause
+would explain if it were trained beside them (R. Frisch, F. V. Waugh: Partial Time Regressions as Compared with
+Individual Trends, Econometrica 1 (1933), 387-401).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from acausal.errors import listing, percent
+from acausal.training.trained_model import TrainedModel
+from acausal.training.uncertainty.changes import changes
+from acausal.training.uncertainty.laplace import by_record, sensitivity
+from acausal.training.uncertainty.record_elimination import untaken
+
+LIKELY = 0.75
+"""The residuals look like a cause if they follow it to this part."""
+
+FAR = np.log(5)
+"""A parameter that is off by a larger factor does not show by small changes."""
+
+MOST = 3
+"""So many causes are named."""
+
+AT_ONCE = 16
+"""Parameters whose effects are computed at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cause:
+    """What residuals may come from.
+
+    Attributes:
+        names: of a parameter, or of targets that come late.
+        effect: how the predictions move by it: by a factor of e of a parameter, by a second of a delay.
+        far: the largest size that shows by small changes.
+        is_delay: whether it is one.
+    """
+
+    names: tuple[str, ...]
+    effect: Float[np.ndarray, "N n_targets"]
+    far: float
+    is_delay: bool = False
+
+    def sentence(self, size: float) -> str:
+        """What it is, by its size."""
+        if self.is_delay:
+            return f"{listing(self.names)} came {abs(size):.2g} s {'early' if size < 0 else 'late'}"
+        return (
+            f"{self.names[0]} changed by {'-' if size < 0 else '+'}{percent(abs(np.expm1(size)))}"
+        )
+
+    def remedy(self, size: float) -> str:
+        """What to do about it."""
+        if self.is_delay:
+            kind = f"ac.Delay(min={2 * size:.1g})" if size < 0 else "ac.Delay()"
+            return f"train it (delays={{{', '.join(f'{name!r}: {kind}' for name in self.names)}}})."
+        return f"if you do not know it so well, train it, too (modifiers=['{self.names[0]}'])."
+
+
+def likely_causes(fit: TrainedModel) -> str | None:
+    """What the residuals of a fit look like, in a sentence; ``None`` if like nothing in particular."""
+    problem = fit.problem
+    change = changes(problem, fit.trained, fit.arguments)
+    left, jacobian = sensitivity(problem, change)
+    causes = [*_parameters(fit), *_delays(fit)]
+    effects = np.stack([left, *(cause.effect for cause in causes)], axis=-1)
+    counts = np.asarray(problem.records.weight) > 0
+    size = np.sqrt(np.sum(left**2, axis=0) / np.maximum(np.sum(counts, axis=0), 1))
+    unit = np.where(counts & (size > 0), 1 / np.where(size > 0, size, 1.0), 0.0)[..., None]
+    taken, effects = ((a * unit).reshape(left.size, -1) for a in (jacobian, effects))
+    if not (np.isfinite(taken).all() and np.isfinite(effects).all()):
+        return None
+    rest = untaken(by_record(change, taken), effects)
+    squares = np.sum(rest**2, axis=0)
+    along = rest[:, 0] @ rest
+    with np.errstate(all="ignore"):
+        sizes, shares = along / squares, np.abs(along) / np.sqrt(squares * squares[0])
+    likely = {
+        cause: float(sizes[k])
+        for k in np.argsort(-np.nan_to_num(shares[1:])) + 1
+        if shares[k] > LIKELY and abs(sizes[k]) < (cause := causes[k - 1]).far
+    }
+    named = list(likely.items())[:MOST]
+    if not named:
+        return None
+    looks = " or ".join(cause.sentence(size) for cause, size in named)
+    first, size = named[0]
+    return f"What is left looks as if {looks}: {first.remedy(size)}"
+
+
+def _parameters(fit: TrainedModel) -> Iterator[Cause]:
+    """The parameters that were taken as known."""
+    problem, trainable = fit.problem, fit.trained
+    params, layout = problem.assemble(trainable), problem.system.layout
+    names = [
+        n
+        for n in layout.names
+        if n not in problem.modifiers.names
+        and n in params
+        and np.ndim(params[n]) == 0
+        and float(params[n]) != 0
+        and layout.why_not_free(n) is None
+    ]
+
+    def effect(direction: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+        def after(step: Float[Array, ""]) -> Float[Array, "N n_targets"]:
+            moves = {
+                n: params[n] * jnp.exp(step * d) for n, d in zip(names, direction, strict=True)
+            }
+            return problem.predict(trainable, {**params, **moves})
+
+        return jax.jvp(after, (jnp.zeros(()),), (jnp.ones(()),))[1]
+
+    if names:
+        run = jax.jit(lambda rows: jax.lax.map(effect, rows, batch_size=AT_ONCE))
+        effects = np.asarray(run(jnp.eye(len(names))))
+        yield from (Cause((n,), e, FAR) for n, e in zip(names, effects, strict=True))
+
+
+def _delays(fit: TrainedModel) -> Iterator[Cause]:
+    """All targets, as after inputs that come late, and each alone, as behind a slow sensor."""
+    problem, records = fit.problem, fit.problem.records
+    y, t = np.asarray(problem.simulate(fit.trained).y), np.asarray(records.steps.t)
+    ends = np.asarray(records.first)[1:]
+    rate = np.concatenate(
+        [
+            np.gradient(one, time, axis=0) if len(time) > 1 else np.zeros_like(one)
+            for one, time in zip(np.split(y, ends), np.split(t, ends), strict=True)
+        ]
+    )
+    late = [n for n in problem.targets if n not in problem.timing.delays]
+    columns = [[problem.targets.index(n)] for n in late]
+    if len(problem.targets) == len(late) > 1:
+        columns.append(list(range(len(late))))
+    for some in columns:
+        effect = np.zeros_like(rate)
+        effect[:, some] = -rate[:, some]
+        fastest = np.max(np.std(rate[:, some], axis=0) / np.asarray(records.sigma)[some])
+        if fastest > 0:
+            names = tuple(problem.targets[i] for i in some)
+            yield Cause(names, effect, float(1 / fastest), is_delay=True)
