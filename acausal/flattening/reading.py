@@ -46,7 +46,8 @@ def read_statements(
         reason, line = str(error).partition("\n")[0], _line(error)
         raise DeclarationError(
             f"{component._node.label}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from "
-            "the method, and use ac.sin, ac.where, ac.maximum, ... for what depends on variables, not math, numpy, if or max"
+            "the method, and use ac.sin, ac.where, ac.maximum, ... for what depends on variables, not math, numpy, "
+            "if or max"
         ) from None
     except DeclarationError as error:
         if component._node.label in str(error):

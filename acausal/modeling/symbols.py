@@ -12,7 +12,7 @@ from copy import copy
 from dataclasses import dataclass, field
 from itertools import count
 from types import FrameType
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 import sympy as sp
@@ -31,7 +31,7 @@ class Time(sp.Symbol):
     """The symbol of time. Models differentiate by it with `der`: to sympy, their variables do not depend on it."""
 
     @property
-    def _diff_wrt(self) -> bool:  # pyright: ignore[reportIncompatibleVariableOverride]
+    def _diff_wrt(self) -> Literal[True]:
         frame = sys._getframe(1)
         while frame.f_back is not None and _package(frame) == "sympy":
             frame = frame.f_back
