@@ -27,7 +27,7 @@ COMPARED_WITH = (bool, int, float, np.number, sp.Expr)
 WITHIN = ("acausal", "numpy", "sympy")
 
 
-class Time(sp.Symbol):
+class TimeSymbol(sp.Symbol):
     """The symbol of time. Models differentiate by it with `der`: to sympy, their variables do not depend on it."""
 
     @property
@@ -42,7 +42,7 @@ class Time(sp.Symbol):
         return True
 
 
-time = Time("time", real=True)
+time = TimeSymbol("time", real=True)
 """The independent variable, in seconds."""
 
 
