@@ -34,7 +34,7 @@ ONE_BY_ONE = 1000
 """So often conditions are changed one by one until an event counts as one without a solution."""
 
 LOOKS = 20
-"""So often, at most, rates are looked at; the second half of these looks sees only conditions that the event is about."""
+"""So often, at most, rates are looked at; the second half of these looks sees only conditions within their band."""
 
 LOOKS_AT_ONCE = 4
 """So often all conditions are changed at once that are at zero and do not agree with their rates; then one by one."""
@@ -179,8 +179,10 @@ def _pass(events: Events, at: Values, rates: Rates | None, going: _Going) -> tup
         found, converged = iterate(events, before, jnp.where(held, jnp.inf, band), forced)
         wrong = jnp.zeros(n, bool)
         if rates is not None and not events.timed.all():
-            look = partial(_against_rates, events, band, rates, *without_derivatives((going.x, found)), k)
-            looks = jnp.where(k > 0, True, jnp.all(equal(found, going.d)) & ~looked)
+            look = partial(
+                _against_rates, events, band, rates, *without_derivatives((going.x, found)), k
+            )
+            looks = (k > 0) | (jnp.all(equal(found, going.d)) & ~looked)
             held, wrong = lax.cond(looks, look, lambda: (held, wrong))
             forced = jnp.where(held, jnp.where(wrong, 1 - found[:n], found[:n]), forced)
             looked = looked | looks
