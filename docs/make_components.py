@@ -84,7 +84,7 @@ class Entry:
             if not name.startswith("_")
         ]
 
-    @property
+    @cached_property
     def equations(self) -> list[str]:
         """Its own equations, as far as they are short; none of what is made of parts."""
         if not issubclass(self.cls, acausal.Component):
@@ -132,6 +132,7 @@ def packages() -> list[str]:
     return sorted(shown, key=lambda n: (FIRST.index(n) if n in FIRST else len(FIRST), n))
 
 
+@cache
 def classes(package: str) -> list[Entry]:
     """The public classes of a package, then those of its public modules that are not the same."""
     module = importlib.import_module(_path(package))
@@ -146,7 +147,13 @@ def classes(package: str) -> list[Entry]:
 def _entries(module: ModuleType, prefix: str) -> list[Entry]:
     named = [(n, getattr(module, n)) for n in _public(module)]
     found = [Entry(prefix + n, v, f"{module.__name__}.{n}") for n, v in named if inspect.isclass(v)]
-    return sorted(found, key=lambda e: (e.cls.__module__, inspect.getsourcelines(e.cls)[1], e.name))
+    return sorted(found, key=lambda e: (e.cls.__module__, _line(e.cls), e.name))
+
+
+@cache
+def _line(cls: type) -> int:
+    """Where a class begins; to find that, Python parses the whole file."""
+    return inspect.getsourcelines(cls)[1]
 
 
 def _modules(module: ModuleType) -> list[str]:

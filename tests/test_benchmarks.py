@@ -137,6 +137,7 @@ def test_exported_steps_are_those_written_by_hand(ride, tmp_path):
     assert exported.forward(asked)() == pytest.approx(expected, rel=1e-11)
 
 
+@pytest.mark.slow
 def test_an_observer_steps_in_python_and_in_c(tmp_path):
     seen = observer.observer(ac.compile(with_networks()), "ekf")
     with suppress(ImportError):

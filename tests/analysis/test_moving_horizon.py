@@ -54,6 +54,7 @@ class Tank(ac.Component):
         yield ac.Eq(ac.der(self.h), -self.rate * self.h)
 
 
+@pytest.mark.slow
 def test_bounds_are_those_of_least_squares():
     t, q, r, first = 0.1 * np.arange(40), 0.1, 0.3, 0.5
     rng = np.random.default_rng(3)

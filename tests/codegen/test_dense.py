@@ -68,6 +68,7 @@ def test_gradients_of_first_and_second_order():
     assert float(jax.hessian(root)(2.0)) == pytest.approx(-np.exp(z) * first**3)
 
 
+@pytest.mark.slow
 def test_a_batch_converges_each_by_itself():
     p = jnp.array([0.1, 4.0, 1e6])
     roots = jax.vmap(lambda q: solve_block(plain(lambda z: z**2 - q), jnp.array([0.5])))(p)

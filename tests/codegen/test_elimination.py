@@ -68,6 +68,7 @@ def test_derivatives_in_both_modes_and_of_second_order():
     np.testing.assert_allclose(both[0](0.3), both[1](0.3), rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_loop_around_it_is_compiled_as_a_whole_and_side_by_side():
     a, b = equations(5, 11)
 

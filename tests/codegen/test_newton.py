@@ -11,7 +11,8 @@ from acausal.codegen import newton
 
 
 def root(residual, guess, scale=1.0):
-    return newton.root(newton.Dense(residual, jnp.linalg.solve), guess, scale)
+    of_guess = jax.jit(lambda z: newton.root(newton.Dense(residual, jnp.linalg.solve), z, scale))
+    return of_guess(guess)
 
 
 def freudenstein_and_roth(z):

@@ -10,6 +10,7 @@ from acausal.command import main
 from tests.support.paths import ROOT
 
 
+@pytest.mark.slow
 def test_its_tests_pass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", "my_springs", "--into", str(tmp_path)]) == 0
     assert "src/my_springs/springs.py" in capsys.readouterr().out

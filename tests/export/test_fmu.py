@@ -117,7 +117,7 @@ def exported(
 Exported = tuple[Case, Unpacked]
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=3, slow=2)
 def test_fmpy_finds_no_problems(exported: Exported) -> None:
     _, fmu = exported
     assert fmu.fmpy.validation.validate_fmu(str(fmu.path)) == []
@@ -171,6 +171,7 @@ def test_directional_and_adjoint_derivatives_are_those_of_linearize(exported: Ex
         np.testing.assert_allclose(ours, expected, rtol=1e-10, atol=1e-10 * np.abs(expected).max())
 
 
+@pytest.mark.cases(fast=3, slow=5)
 def test_states_are_kept_and_restored_bit_for_bit(exported: Exported) -> None:
     case, fmu = exported
     names, dt = case.outputs, case.dt

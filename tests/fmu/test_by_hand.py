@@ -58,6 +58,7 @@ def exact(time: float) -> Any:
     return (expm(augmented * time) @ [0.1, 0.2, 1.0])[:2]
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize(("kind", "error"), [("me", 1e-7), ("cs", 2e-3)])
 def test_sizes_follow_from_structural_parameters(linear: Path, kind: Any, error: float) -> None:
     alone = ac.compile(ac.FMU(linear, {"u": 1.0}, kind=kind))  # with the sizes that the file has

@@ -276,7 +276,7 @@ def test_gradients_move_events_whose_time_is_known(
         np.testing.assert_allclose(found[name], slope, rtol=2e-5, err_msg=name)
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=1)
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_indicators_whose_meaning_changes_with_the_mode_are_no_further_events(
     exported: Exported, fmi: str
@@ -287,6 +287,7 @@ def test_indicators_whose_meaning_changes_with_the_mode_are_no_further_events(
     assert len(found.events) <= len(expected.events) + 1
 
 
+@pytest.mark.slow
 def test_instances_go_back_to_states_that_they_had(
     exported: Exported, monkeypatch: pytest.MonkeyPatch
 ) -> None:

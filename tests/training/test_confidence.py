@@ -380,6 +380,7 @@ def cell_record(size: float, seed: int) -> ac.Data:
     return ac.Data(t, {"i": i, "v": voltage(charge) + 0.005 * rng.standard_normal(len(t))})
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("sizes", [(1.0,), (1.0, 0.3)])
 def test_a_start_that_a_law_can_take_is_said_and_widens_its_band(sizes: tuple[float, ...]) -> None:
     """The law may be shifted by any charge, and the start with it."""

@@ -131,6 +131,7 @@ class SampledLoop(ac.Component):
         yield ac.When(ac.sample(0.0, 0.25), ac.Eq(self.u, self.controller(self.r - self.x)))
 
 
+@pytest.mark.slow
 def test_laws_at_events_are_trained_and_laws_of_discrete_variables_see_their_values() -> None:
     system, times = ac.compile(SampledLoop()), np.linspace(0.0, 4.0, 81)
     r = 3 * np.sin(times)
@@ -172,6 +173,7 @@ def sampled_record(seed: int, n: int) -> ac.Data:
     return ac.Data(0.01 * np.arange(n + 1), {"r": r, "x": x}, interpolation={"r": "previous"})
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("period", [0.1, 0.01])
 def test_a_tick_at_a_jump_reads_what_is_behind_it_in_each_of_several_records(period: float) -> None:
     records = {"a": sampled_record(0, 400), "b": sampled_record(1, 300)}

@@ -191,6 +191,7 @@ def test_what_does_not_fit_into_memory_is_refused():
     )
 
 
+@pytest.mark.slow
 def test_a_saddle_is_not_an_end():
     """From where the Hessian is indefinite, as a penalty's may be, to the minimum at (0, 1)."""
 

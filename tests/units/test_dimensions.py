@@ -724,7 +724,7 @@ What a network gives has any unit: an energy that is computed from it tells noth
 """
 
 
-@pytest.mark.cases(fast=3, slow=99)
+@pytest.mark.cases(fast=2, slow=99)
 @pytest.mark.parametrize("package", components.PACKAGES)
 def test_the_library_has_right_units(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """And none that pint must be asked for, as its import takes longer than the check."""
@@ -736,7 +736,7 @@ def test_the_library_has_right_units(package: str, monkeypatch: pytest.MonkeyPat
         check_dimensions(flat)
 
 
-@pytest.mark.cases(fast=3)
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("package", components.PACKAGES)
 def test_wrong_units_in_the_library_would_be_found(package: str) -> None:
     """Each unit in turn is multiplied by a unit that is not found elsewhere."""
