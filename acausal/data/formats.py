@@ -190,9 +190,11 @@ class Formats(ABC):
             A `Stream`; ``stream["run 7"]`` reads one record.
 
         Raises:
-            DataError: if there are no files, or they are of several kinds.
+            DataError: if there are no files or records, or files are of several kinds.
         """
         if isinstance(given, Mapping):
+            if not given:
+                raise DataError("stream: there are no records; give at least one.")
             return Stream({name: cls._source(one, options) for name, one in given.items()})
         found = readers.files(given, "stream")
         found = {found.stem: found} if isinstance(found, Path) else found

@@ -118,7 +118,7 @@ def model_text(
     solver: str,
     derivatives: bool,
     dtype: Any,
-    watch: Watch | None = None,
+    watch: Watch | None,
 ) -> ModelText:
     """What is written about a model; arguments as of `c`."""
     title = system.model._node.title or type(system.model).__name__
@@ -135,7 +135,7 @@ def model_text(
     numbers = len(system.layout.free)
     entries = vector.entries
     parameters = _with_units([e.name for e in entries[:numbers]], system)
-    parameters += [(NameRange(e.name, "", None, e.first, 1, e.size), "") for e in entries[numbers:]]
+    parameters += [(NameRange(e.name, e.first, e.size), "") for e in entries[numbers:]]
     start, start_d = _start(system, given)
     return ModelText(
         chosen, title, real, code, solver, scheme, vector,
@@ -184,7 +184,7 @@ def _states(system: System) -> list[tuple[NameRange, str]]:
     n = system.reduced.n_independent
     guesses = enumerate(system.states[n:], n)
     return _with_units(system.states[:n], system) + [
-        (NameRange(f"guess({name})", "", None, i, 1, 1), system.unit(name)) for i, name in guesses
+        (NameRange(f"guess({name})", i), system.unit(name)) for i, name in guesses
     ]
 
 

@@ -20,11 +20,11 @@ class NameRange:
     """
 
     before: str
-    after: str
-    index: int | None
     first: int
-    stride: int
-    count: int
+    count: int = 1
+    stride: int = 1
+    after: str = ""
+    index: int | None = None
 
     @property
     def name(self) -> str:
@@ -59,7 +59,7 @@ def runs(names: Sequence[str]) -> list[NameRange]:
     result: list[NameRange] = []
     for (before, after), members in groups.items():
         if len(members) == 1 and before == names[members[0][1]]:
-            result.append(NameRange(before, "", None, members[0][1], 1, 1))
+            result.append(NameRange(before, members[0][1]))
             continue
         result += _even(before, after, members)
     return sorted(result, key=lambda r: r.first)
@@ -82,8 +82,8 @@ def _even(before: str, after: str, members: list[tuple[int, int]]) -> list[NameR
                 end += 1
         index, first = members[start]
         if end - start == 1:
-            result.append(NameRange(f"{before}[{index}]{after}", "", None, first, 1, 1))
+            result.append(NameRange(f"{before}[{index}]{after}", first))
         else:
-            result.append(NameRange(before, after, index, first, stride, end - start))
+            result.append(NameRange(before, first, end - start, stride, after, index))
         start = end
     return result

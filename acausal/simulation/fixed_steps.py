@@ -38,6 +38,9 @@ State: TypeAlias = Float[Array, " n_states"]
 Field = Callable[[ArrayLike, PyTree], Rates]
 """The right-hand side within a step: (fraction of the step, arguments) -> derivatives as a function of the states."""
 
+Part: TypeAlias = tuple[Any, Any]
+"""A part of a step, between two fractions of it."""
+
 Stepper = Callable[[Field, State, Float[Array, ""], PyTree, State | None], State]
 """One step of a scheme: (field, state, length, arguments, derivative at the start if known) -> state."""
 
@@ -58,9 +61,9 @@ class Parts(eqx.Module):
         cuts, u = jnp.pad(self.cuts, 1, constant_values=(0.0, 1.0)), self.inputs
         i = jnp.sum(self.cuts <= around)
         length = cuts[i + 1] - cuts[i]
-        own = (fraction - cuts[i]) / jnp.where(length > 0, length, 1.0)
+        of_part = (fraction - cuts[i]) / jnp.where(length > 0, length, 1.0)
         coefficients = None if u.coefficients is None else u.coefficients[i]
-        return on_curve(u.start[i], u.end[i], coefficients, own)
+        return on_curve(u.start[i], u.end[i], coefficients, of_part)
 
 
 class Steps(eqx.Module):
@@ -127,9 +130,7 @@ class Within(NamedTuple):
     step: Steps
     sided: bool = False
 
-    def at(
-        self, fraction: ArrayLike, x: State, part: tuple[ArrayLike, ArrayLike] = (0.0, 1.0)
-    ) -> Values:
+    def at(self, fraction: ArrayLike, x: State, part: Part = (0.0, 1.0)) -> Values:
         """The values of the model at a fraction of the step, in a part of it: between two fractions.
 
         Stages beyond the part's end, as Kvaerno5 has one, keep their time: its order depends on it.
@@ -214,53 +215,13 @@ def integrate(
     outputs = tuple(outputs)
     explicit = isinstance(solver, EXPLICIT)
     tableau, dtype = tableau_of(solver).without_estimate(), start.x.dtype
-    advance = _explicit(tableau) if explicit else _implicit(tableau, system.state_jacobian, dtype)
-    equal = steps.h if steps.h.ndim == 0 else None
+    scheme = _explicit(tableau) if explicit else _implicit(tableau, system.state_jacobian, dtype)
+    divided_step = _DividedStep(system, scheme, substeps, divided)
+    samples = steps.inputs
+    equal, h = (steps.h, None) if steps.h.ndim == 0 else (None, steps.h)
     constant = start._replace(t=None, x=None, u=None)
-    constants, fixed = eqx.partition((constant, steps.inputs.functions, equal), eqx.is_array)
-
-    sided = bool(system.edges) or any(
-        isinstance(f, Signal) and f.jumps for f in steps.inputs.functions
-    )
-
-    def over(part: tuple[Any, Any], x: State, within: Within, first: State | None) -> State:
-        """From one fraction of a step to another."""
-
-        def field(fraction: ArrayLike, args: tuple[Any, Within]) -> Rates:
-            (low, high), within = args
-            at: Any = fraction if _is_whole(low, high) else low + fraction * (high - low)
-            values = within.at(at, x, (low, high))
-            return system.field(values.t, values.u, values.packed, values.d)
-
-        low, high = part
-        length = within.step.h if _is_whole(low, high) else (high - low) * within.step.h
-        return advance(field, x, length, (part, within), first)
-
-    def in_parts(low: Any, high: Any, x: State, within: Within, first: State | None) -> State:
-        """The same in `substeps` equal steps."""
-        if substeps == 1:
-            return over((low, high), x, within, first)
-
-        def ends(j: ArrayLike) -> tuple[Any, Any]:
-            return low + (high - low) * j / substeps, low + (high - low) * (j + 1) / substeps
-
-        x = over(ends(jnp.zeros((), x.dtype)), x, within, first)
-        rest = jnp.arange(1.0, substeps, dtype=x.dtype)
-        return jax.lax.scan(lambda x, j: (over(ends(j), x, within, None), None), x, rest)[0]
-
-    def whole(x: State, within: Within, first: State | None) -> State:
-        cuts, moved = _cuts(system, within, divided)
-        if cuts is None:
-            return in_parts(0.0, 1.0, x, within, first)
-
-        def next_part(x: State, ends: tuple[Array, Array]) -> tuple[State, None]:
-            go = lambda: in_parts(*ends, x, within, None)  # noqa: E731
-            return jax.lax.cond(ends[1] > ends[0], go, lambda: x), None
-
-        x = in_parts(jnp.zeros_like(cuts[0]), cuts[0], x, within, first)
-        later = cuts, jnp.append(cuts[1:], jnp.ones((), cuts.dtype))
-        x = jax.lax.scan(next_part, x, later)[0]
-        return x if moved is None else _with_edge_at_end(system, within, x, *moved)
+    constants, fixed = eqx.partition((constant, samples.functions, equal), eqx.is_array)
+    sided = bool(system.edges) or any(isinstance(f, Signal) and f.jumps for f in samples.functions)
 
     def observe(x: State, within: Within) -> tuple[State | None, Array | None]:
         if not outputs:
@@ -279,16 +240,64 @@ def integrate(
         inputs = Samples(start, end, functions, coefficients)
         within = Within(values, Steps(t, length, inputs, parts), sided)
         first_stage, y = observe(x, within)
-        return whole(x, within, first_stage), y
+        return divided_step(x, within, first_stage), y
 
-    samples = steps.inputs
-    h = None if equal is not None else steps.h
     restarts, own, places = (
         (None, None, ()) if runs is None else (runs.restarts, runs.own, runs.places)
     )
     rows = (steps.t, h, samples.start, samples.end, samples.coefficients, steps.parts, own)
     xs, end, ys = stored_scan(step, constants, start.x, rows, direct=direct, restarts=restarts)
     return Integrated(xs, ys, end)
+
+
+class _DividedStep(NamedTuple):
+    """A step of one scheme, divided at edges of sources and samples of inputs, and between them into equal parts."""
+
+    system: System
+    scheme: Stepper
+    substeps: int
+    at_edges: bool
+
+    def __call__(self, x: State, within: Within, first: State | None) -> State:
+        """The state at the end; ``first`` is the derivative at the start, if it is known."""
+        cuts, moved = _cuts(self.system, within, self.at_edges)
+        if cuts is None:
+            return self._in_substeps((0.0, 1.0), x, within, first)
+
+        def next_part(x: State, ends: tuple[Array, Array]) -> tuple[State, None]:
+            go = lambda: self._in_substeps(ends, x, within, None)  # noqa: E731
+            return jax.lax.cond(ends[1] > ends[0], go, lambda: x), None
+
+        x = self._in_substeps((jnp.zeros_like(cuts[0]), cuts[0]), x, within, first)
+        later = cuts, jnp.append(cuts[1:], jnp.ones((), cuts.dtype))
+        x = jax.lax.scan(next_part, x, later)[0]
+        return x if moved is None else _with_edge_at_end(self.system, within, x, *moved)
+
+    def _in_substeps(self, part: Part, x: State, within: Within, first: State | None) -> State:
+        """From one fraction of the step to another, in equal parts."""
+        (low, high), n = part, self.substeps
+        if n == 1:
+            return self._once(part, x, within, first)
+
+        def piece(j: ArrayLike) -> Part:
+            return low + (high - low) * j / n, low + (high - low) * (j + 1) / n
+
+        x = self._once(piece(jnp.zeros((), x.dtype)), x, within, first)
+        later = jnp.arange(1.0, n, dtype=x.dtype)
+        return jax.lax.scan(lambda x, j: (self._once(piece(j), x, within, None), None), x, later)[0]
+
+    def _once(self, part: Part, x: State, within: Within, first: State | None) -> State:
+        """The same in a single step of the scheme."""
+
+        def field(fraction: ArrayLike, args: tuple[Part, Within]) -> Rates:
+            (low, high), within = args
+            at: Any = fraction if _is_whole(low, high) else low + fraction * (high - low)
+            values = within.at(at, x, (low, high))
+            return self.system.field(values.t, values.u, values.packed, values.d)
+
+        low, high = part
+        length = within.step.h if _is_whole(low, high) else (high - low) * within.step.h
+        return self.scheme(field, x, length, (part, within), first)
 
 
 def _is_whole(low: ArrayLike, high: ArrayLike) -> bool:
@@ -303,7 +312,7 @@ def _cuts(
     And whether an edge is at its end, and by what that moves: zero, with derivatives.
     """
     step = within.step
-    found = [] if step.parts is None else [*step.parts.cuts]
+    cuts = [] if step.parts is None else [*step.parts.cuts]
     signals = [f for f in step.inputs.functions if isinstance(f, Signal)]
     signals = [f for f in signals if f.jumps or f.interpolation == "linear"]
     moved = None
@@ -322,8 +331,8 @@ def _cuts(
             shift = jnp.where(is_last, t - jax.lax.stop_gradient(t), 0.0)
             moved = moved[0] | is_last, moved[1] + shift
             t = jnp.where(is_within, t, end)
-            found.append(jnp.where(is_within, (t - step.t) / step.h, 1.0))
-    return jnp.sort(jnp.stack(found)) if found else None, moved
+            cuts.append(jnp.where(is_within, (t - step.t) / step.h, 1.0))
+    return jnp.sort(jnp.stack(cuts)) if cuts else None, moved
 
 
 def _with_edge_at_end(
@@ -353,19 +362,19 @@ def inner_fractions(solver: Any, substeps: int) -> tuple[float, ...] | None:
     if not isinstance(solver, EXPLICIT):
         return None
     places = [0.0, *tableau_of(solver).fractions]
-    found = {(j + fraction) / substeps for j in range(substeps) for fraction in places}
-    return tuple(sorted(fraction for fraction in found if 0 < fraction < 1))
+    fractions = {(j + place) / substeps for j in range(substeps) for place in places}
+    return tuple(sorted(fraction for fraction in fractions if 0 < fraction < 1))
 
 
 def _explicit(tableau: Tableau) -> Stepper:
     """An explicit Runge–Kutta step, unrolled."""
 
     def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
-        found = [] if first is None else [first]
+        rates = [] if first is None else [first]
         for row, fraction in zip(tableau.rows, tableau.fractions, strict=True):
-            if len(row) >= len(found):
-                found.append(field(fraction, args)(moved(x, h, row, found)))
-        return moved(x, h, tableau.weights, found)
+            if len(row) >= len(rates):
+                rates.append(field(fraction, args)(moved(x, h, row, rates)))
+        return moved(x, h, tableau.weights, rates)
 
     return step
 
@@ -375,7 +384,7 @@ def _implicit(tableau: Tableau, jacobian: StateJacobian, dtype: Any) -> Stepper:
     scheme = ImplicitScheme(tableau, jacobian, fixed_tolerances(dtype), FIXED)
 
     def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
-        found = stages(scheme, Fields(field, args), h, x, None)
-        return moved(x, jnp.ones_like(h), tableau.weights, list(found.increments))
+        increments = stages(scheme, Fields(field, args), h, x, None).increments
+        return moved(x, jnp.ones_like(h), tableau.weights, list(increments))
 
     return step

@@ -12,7 +12,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from acausal._jax import precision
-from acausal.codegen import Values
+from acausal.codegen import Packed, Values
 from acausal.data import Data, check_resolution
 from acausal.errors import DataError, TrainingError, known_name, listing, shown
 from acausal.modeling import names_in
@@ -31,7 +31,7 @@ from acausal.simulation import (
 from acausal.training.objective.initial_state import by_record, first_states
 from acausal.training.objective.lay_out import check_step, lay_out, sample_time
 from acausal.training.objective.losses import named
-from acausal.training.objective.modifiers import modifiers
+from acausal.training.objective.modifiers import Modifiers, modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates, shooting_states
 from acausal.training.objective.parameter_spread import parameter_spread
 from acausal.training.objective.per_record import per_record
@@ -44,7 +44,7 @@ from acausal.training.objective.sharding import device_mesh
 from acausal.training.objective.start_prior import start_prior
 from acausal.training.objective.start_sizes import with_sizes
 from acausal.training.objective.streamed import Streamed
-from acausal.training.objective.timing import timing
+from acausal.training.objective.timing import Timing, timing
 from acausal.training.objective.weighting import Weighting, weighting
 from acausal.training.options import FitOptions
 
@@ -78,30 +78,13 @@ def build_problem(
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
     packed = system.pack(params)  # refuses what does not fit
-    names_of_networks = trained_networks(system, options.train, params)
-    layout = system.layout
-    trained_parameters = modifiers(
-        options.modifiers, options.gamma, params, layout.why_not_free, layout.range_of
-    )
-    times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
-    trained_parameters = trained_parameters.joined(moving)
-    if not names_of_networks and not trained_parameters.names and not options.per_record:
-        raise TrainingError(
-            "There is nothing to train: no network is in the model or chosen by train=[...]. "
-            "Give modifiers=[...] to train parameters."
-        )
+    names, parameters, times = _what_is_trained(system, data, targets, params, options)
     _check_targets(system, targets)
     dtype = precision(options.dtype)
-    for name, record in data.items():
-        where = "The record" if len(data) == 1 else f"The record '{name}'"
-        if len(record) < 2:
-            raise DataError(f"{where} has fewer than two samples.")
-        check_resolution(record.time, dtype, where)
-        check_clocks(system, system.blank(packed, record.time[0]), record.time[-1])
+    _check_records(system, data, packed, dtype)
     even = sample_time(data.values()) if streamed is None else streamed.even
     check_step(even, options.dt)
     shooting = "fit" in by_record(data, options.x0)
-    own_states = system.states[: system.reduced.n_independent]
     solver = _solver(options, dtype)
     records, substeps = lay_out(
         system,
@@ -120,7 +103,8 @@ def build_problem(
     weights = weighting(options.record_weights, options.sample_weights, tuple(data), targets, loss)
     records = _weighted(records, weights, targets)
     how = options.sequence_length, options.batch_size, options.subsample
-    lacking = [n for n in own_states if any(n not in d.signals for d in data.values())]
+    states = system.states[: system.reduced.n_independent]
+    lacking = [n for n in states if any(n not in d.signals for d in data.values())]
     if streamed is None:
         sequences = cut(records, *how, tiled=shooting, lacking=lacking)
     else:
@@ -131,9 +115,9 @@ def build_problem(
         params={
             n: leaf if callable(leaf) else jnp.asarray(leaf, float) for n, leaf in params.items()
         },
-        networks=names_of_networks,
-        modifiers=trained_parameters,
-        parameter_spread=parameter_spread(options.parameter_spread, params, layout.range_of),
+        networks=names,
+        modifiers=parameters,
+        parameter_spread=parameter_spread(options.parameter_spread, params, system.layout.range_of),
         per_record=per_record(system, options.per_record, params, records.count),
         timing=times,
         targets=targets,
@@ -159,6 +143,39 @@ def build_problem(
     if shooting:
         problem = replace(problem, shooting=_shooting_states(problem, data))
     return replace(problem, context=_context(problem)) if options.penalties else problem
+
+
+def _what_is_trained(
+    system: System,
+    data: Mapping[str, Data],
+    targets: tuple[str, ...],
+    params: dict[str, Any],
+    options: FitOptions,
+) -> tuple[tuple[str, ...], Modifiers, Timing]:
+    """The networks and the parameters to train, and the delays and lags, of which some may be among these."""
+    layout, names = system.layout, trained_networks(system, options.train, params)
+    parameters = modifiers(
+        options.modifiers, options.gamma, params, layout.why_not_free, layout.range_of
+    )
+    times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
+    parameters = parameters.joined(moving)
+    if not names and not parameters.names and not options.per_record:
+        raise TrainingError(
+            "There is nothing to train: no network is in the model or chosen by train=[...]. "
+            "Give modifiers=[...] to train parameters."
+        )
+    return names, parameters, times
+
+
+def _check_records(
+    system: System, data: Mapping[str, Data], packed: Packed, dtype: np.dtype[Any]
+) -> None:
+    for name, record in data.items():
+        where = "The record" if len(data) == 1 else f"The record '{name}'"
+        if len(record) < 2:
+            raise DataError(f"{where} has fewer than two samples.")
+        check_resolution(record.time, dtype, where)
+        check_clocks(system, system.blank(packed, record.time[0]), record.time[-1])
 
 
 def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
@@ -189,13 +206,13 @@ def trained_networks(
     layout, called = system.layout, set[int]()
     for group in system.flat.equations():
         called.update(layout.module_of[group.modules].ravel().tolist())
-    own = dict(zip(layout.module_names, layout.own_modules, strict=True))
-    found = [name for name in networks(params) if own[name] in called]
+    module = dict(zip(layout.module_names, layout.own_modules, strict=True))
+    trainable = [name for name in networks(params) if module[name] in called]
     if train is None:
-        return tuple(found)
+        return tuple(trainable)
     chosen = names_in(train, "train")
     for name in chosen:
-        known_name(name, found, "There is no network", TrainingError, " to train:")
+        known_name(name, trainable, "There is no network", TrainingError, " to train:")
     return chosen
 
 
@@ -296,8 +313,8 @@ def _context(problem: Problem) -> Context:
     if not all(bool(jnp.isfinite(a).all()) for a in (x, d) if a is not None):
         raise TrainingError(DIVERGES)
     t = problem.records.steps.t
-    own = None if d is None else d[rows]
-    passed = Trajectory(problem.system, t[rows], x[rows], problem.inputs[rows], own)
+    discrete = None if d is None else d[rows]
+    passed = Trajectory(problem.system, t[rows], x[rows], problem.inputs[rows], discrete)
     return Context(problem.networks, problem.seen(problem.start(), x, d, jnp.asarray(rows)), passed)
 
 

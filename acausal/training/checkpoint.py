@@ -16,7 +16,7 @@ from acausal.data import filled_like, named_arrays, read_arrays, write_arrays
 from acausal.errors import DataError, TrainingError, listing, reason, user_level
 from acausal.files import Lock
 from acausal.training.history import LogContent
-from acausal.training.objective.trainable import Trainable
+from acausal.training.member import Best
 from acausal.training.optimizers.trainer import State
 
 LOGGER = logging.getLogger(__name__)
@@ -25,15 +25,6 @@ KIND = "checkpoint of a training, version 3"
 
 LOG = "log {}: "
 """Prefix of the names of a training log's columns in a file."""
-
-
-class StoredBest(NamedTuple):
-    """The best of a training: `acausal.training.member.Best` without its simulation, which can be repeated."""
-
-    loss: float
-    validation: float | None
-    epoch: int
-    trainable: Trainable
 
 
 class Snapshot(NamedTuple):
@@ -50,7 +41,7 @@ class Snapshot(NamedTuple):
     segment: int
     before: int
     state: State
-    bests: tuple[StoredBest, ...]
+    bests: tuple[Best, ...]
     evaluated: int
     seconds: float
     compiling: float

@@ -13,10 +13,10 @@ from acausal.codegen import Values
 from acausal.errors import listing
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training.happened import grazing
-from acausal.training.member import Best, Trained
+from acausal.training.member import Trained
 from acausal.training.objective.losses import noise_loss, nrmse
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.trainable import Trainable
+from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.rejections import SHORTER_STEPS
 
 EXACT = 1e-100
@@ -34,9 +34,9 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
         )
     if not np.isfinite(trained.best.loss):
         yield "The trained model diverges over the whole record: its loss is infinite."
-    elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained.best)):
+    elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained)):
         yield f"Training found nothing better than its start. {sentence}"
-    elif sentence := _no_better_than_the_mean(problem, trained.best):
+    elif sentence := _no_better_than_the_mean(problem, trained.simulated):
         yield sentence
     if not problem.sequences.whole and (remembered := problem.system.remembered):
         yield (
@@ -44,7 +44,7 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
             "take whole records (sequence_length=None), or give them as inputs: "
             f"ac.compile(model, inputs={[remembered[0]]})."
         )
-    if clause := grazing(problem.system, problem.records, trained.best.simulated.log):
+    if clause := grazing(problem.system, problem.records, trained.simulated.log):
         yield (
             f"The condition {clause}: there the gradient does not exist, or is huge, and training may not get past it. "
             "Leave this part of the record out, or start from other values."
@@ -62,20 +62,20 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
     yield from problem.modifiers.at_limit(changes, problem.unit).values()
 
 
-def _long_steps(problem: Problem, best: Best) -> str | None:
+def _long_steps(problem: Problem, trained: Trained) -> str | None:
     """A sentence on steps that are too long for gradients, or None."""
     if not isinstance(problem.solver, EXPLICIT):
         return None
-    packed = problem.system.pack(problem.model_params(best.trainable))
-    values = Values(problem.records.steps.t, best.simulated.x, problem.inputs, packed)
+    packed = problem.system.pack(problem.model_params(trained.best.trainable))
+    values = Values(problem.records.steps.t, trained.simulated.x, problem.inputs, packed)
     return long_steps(problem.system, values, problem.longest_step)
 
 
-def _no_better_than_the_mean(problem: Problem, best: Best) -> str | None:
+def _no_better_than_the_mean(problem: Problem, simulated: Simulated) -> str | None:
     """A sentence on a model that follows its records no better than a constant does, or None."""
     records = problem.records
     level = np.sqrt(len(problem.targets))
-    error = float(compiled(nrmse)(best.simulated.y, records.y, records.sigma, records.weight))
+    error = float(compiled(nrmse)(simulated.y, records.y, records.sigma, records.weight))
     if error < level:
         return None
     return (

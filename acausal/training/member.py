@@ -28,14 +28,12 @@ class Best(NamedTuple):
         validation: loss over the held-out samples, likewise; ``None`` without validation.
         epoch: updates done.
         trainable: what was trained.
-        simulated: one simulation of the whole record.
     """
 
     loss: float
     validation: float | None
     epoch: int
     trainable: Trainable
-    simulated: Simulated
 
     @property
     def score(self) -> float:
@@ -48,7 +46,7 @@ class Trained:
     """The end of a training.
 
     Attributes:
-        best: its best state.
+        best: its best state. simulated: one simulation of the whole record with it.
         last: what was trained, after the last update or evaluation.
         history: the training, update by update.
         seconds: total time; ``compiling``: the part in XLA's compiler; ``updating``: the part in updates.
@@ -58,6 +56,7 @@ class Trained:
     """
 
     best: Best
+    simulated: Simulated
     last: Trainable
     history: History
     seconds: float
@@ -89,12 +88,13 @@ class Member:
         key: source of all batches.
 
     Attributes:
-        best: its best state.
+        best: its best state. simulated: one simulation of the whole record with it.
         before: its updates before the present part of the strategy.
         failed: why that part has ended, as of `Trained`.
     """
 
     best: Best
+    simulated: Simulated
     before: int = 0
     failed: str | None = None
 
@@ -104,8 +104,9 @@ class Member:
 
     def evaluate(self, candidates: Sequence[Trainable]) -> None:
         """Evaluate some trainables, log the best of them, and keep it if it is better than the best so far."""
-        new = min(map(self._evaluated, candidates), key=self._deciding)
-        events = events_in(self.problem.records, new.simulated.log)
+        evaluated = map(self._evaluated, candidates)
+        new, simulated = min(evaluated, key=lambda one: self._deciding(one[0]))
+        events = events_in(self.problem.records, simulated.log)
         validation = math.nan if new.validation is None else new.validation
         self.log.evaluated(new.loss, validation, events)
         if (
@@ -113,15 +114,15 @@ class Member:
             or self._deciding(new) < self._deciding(self.best)
             or math.isinf(self.best.score)
         ):
-            self.best = new
+            self.best, self.simulated = new, simulated
 
-    def _evaluated(self, trainable: Trainable) -> Best:
+    def _evaluated(self, trainable: Trainable) -> tuple[Best, Simulated]:
         simulated = self.problem.simulate(trainable)
         validation = (
             None if self.held is None else _finite_or_inf(self.held.held_out_loss(trainable))
         )
         loss = _finite_or_inf(simulated.loss)
-        return Best(loss, validation, self.log.epochs, trainable, simulated)
+        return Best(loss, validation, self.log.epochs, trainable), simulated
 
     def _deciding(self, best: Best) -> float:
         """The score, weighed by what an earlier training knew where nothing is held out."""
@@ -131,7 +132,7 @@ class Member:
 
     def noise(self) -> float:
         """The loss that the noise alone leaves, as the best state has it."""
-        return noise_loss(self.problem.records, self.best.simulated.y)
+        return noise_loss(self.problem.records, self.simulated.y)
 
     def evaluations_without_improvement(self) -> int:
         """How many evaluations there were in this part of the strategy since the best one."""

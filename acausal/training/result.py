@@ -280,7 +280,7 @@ def result(
         held = replace(held, mesh=None)
         known = held.over_other_records(best.trainable)
         held_out = of_records(held, known, held.simulate(known))
-    records = of_records(problem, best.trainable, best.simulated)
+    records = of_records(problem, best.trainable, trained.simulated)
     arguments = {
         n: np.concatenate([record.arguments[n] for record in records.values()])
         for n in problem.networks

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from acausal.data import Data, Stream
-from acausal.errors import DataError, TrainingError, known_name, listing
+from acausal.errors import TrainingError
 from acausal.training.objective.held_out import named_records
 from acausal.training.objective.streamed import Streamed, survey
 from acausal.training.options import FitOptions
@@ -44,12 +44,7 @@ def look_at(
             f"{needs} needs whole records in memory, but a stream is trained with strategy='sequences' alone: give "
             "some of the records, such as [stream['run 7']], or dict(stream) to read all."
         )
-    names = named_records(options.validation)
-    for name in names:
-        known_name(name, stream.sources, "validation: there is no record")
-    if len(set(names)) == len(stream):
-        raise DataError(f"validation={listing(names)} leaves no record to train on.")
-    if names:
+    if names := named_records(options.validation, stream.sources):
         options = replace(options, validation={name: stream[name] for name in names})
     records, streamed = survey(system, stream.without(names), targets, options.dtype)
     if options.dt is not None and streamed.even is None:

@@ -137,7 +137,7 @@ def _in_pieces(
         return None
     cut = training.automatic.pieces > 0
     lengths = [
-        length_of_pieces(own, one.best.trainable, one.best.simulated, QUARTER if cut else HALF)
+        length_of_pieces(own, one.best.trainable, one.simulated, QUARTER if cut else HALF)
         for own, one in zip(problems, trained, strict=True)
         if _needs_pieces(own, one, cut=cut)
     ]
@@ -162,10 +162,10 @@ def _in_pieces(
 def _needs_pieces(problem: Problem, trained: Trained, *, cut: bool) -> bool:
     """Whether whole records were not explained, or pieces of them, as the model is sensitive or has run away."""
     best = trained.best
-    if explains(problem, best.loss, noise_loss(problem.records, best.simulated.y)):
+    if explains(problem, best.loss, noise_loss(problem.records, trained.simulated.y)):
         return False
     lost = trained.failed is not None or not np.isfinite(best.loss)
-    return cut or lost or is_sensitive(problem, best.trainable, best.simulated)
+    return cut or lost or is_sensitive(problem, best.trainable, trained.simulated)
 
 
 def _step_errors(
@@ -174,10 +174,9 @@ def _step_errors(
     """The errors of the steps at the end of each training; ``None`` where the user has chosen all."""
     if training.automatic is None:
         return [None] * len(trained)
-    bests = [one.best for one in trained]
     return [
-        step_error(own, best.trainable, best.simulated)
-        for own, best in zip(problems, bests, strict=True)
+        step_error(own, one.best.trainable, one.simulated)
+        for own, one in zip(problems, trained, strict=True)
     ]
 
 
@@ -192,10 +191,10 @@ def _finer(
     if step is None or any(one.interrupted for one in trained):
         return None
     error, loss = max((e or 0.0, one.best.loss) for e, one in zip(errors, trained, strict=True))
-    finer, bests = finer_steps(step, error, loss), [one.best for one in trained]
+    finer = finer_steps(step, error, loss)
     if finer is None or any(
-        is_sensitive(own, best.trainable, best.simulated)
-        for own, best in zip(problems, bests, strict=True)
+        is_sensitive(own, one.best.trainable, one.simulated)
+        for own, one in zip(problems, trained, strict=True)
     ):
         return None
     return finer

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Array, Bool, PRNGKeyArray
 
 from acausal.errors import TrainingError
-from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
+from acausal.training.checkpoint import Keep, Snapshot, Stored
 from acausal.training.history import Divergence
 from acausal.training.member import Best, Member, Trained, stacked, unstacked
 from acausal.training.objective.problem import Problem
@@ -119,6 +119,7 @@ class TrainingRun:
         return tuple(
             Trained(
                 member.best,
+                member.simulated,
                 end,
                 member.log.history(),
                 *times,
@@ -136,13 +137,13 @@ class TrainingRun:
     def resume(self, stored: Stored, starts: Sequence[Trainable]) -> tuple[int, State]:
         """Restore a training; returns its segment and the trainer's state."""
         validation = None if self.members[0].held is None else 0.0
-        bests = tuple(StoredBest(0.0, validation, 0, start) for start in starts)
+        bests = tuple(Best(0.0, validation, 0, start) for start in starts)
         state = self._begin(stored.segment, starts)
         like = Snapshot(stored.segment, 0, state, bests, 0, 0.0, 0.0, 0.0)
         snapshot = replicate(stored.snapshot(like), self.mesh)
         for member, columns, best in zip(self.members, stored.columns, snapshot.bests, strict=True):
             member.log.go_on(columns)
-            member.best = Best(*best, member.problem.simulate(best.trainable))
+            member.best, member.simulated = best, member.problem.simulate(best.trainable)
         self.candidates = candidates(snapshot.state)
         self.before, self.evaluated = snapshot.before, snapshot.evaluated
         epochs = epochs_of(snapshot.state)
@@ -287,7 +288,7 @@ class TrainingRun:
     def _keep(self, segment: int, state: State) -> None:
         """Pass all that is needed to continue from here to ``keep``."""
         seconds = time.perf_counter() - self.began
-        bests = tuple(StoredBest(*m.best[:-1]) for m in self.members)
+        bests = tuple(m.best for m in self.members)
         snapshot = Snapshot(
             segment,
             self.before,

@@ -177,3 +177,5 @@ def test_other_refusals_say_what_to_do(stream, tmp_path):
     (tmp_path / "b.mat").write_text("")
     with pytest.raises(ac.DataError, match="several kinds"):
         ac.Data.stream(f"{tmp_path}/*")
+    with pytest.raises(ac.DataError, match="there are no records"):
+        ac.Data.stream({})

@@ -70,8 +70,8 @@ def write_code(
     outputs: Sequence[str],
     *,
     derivatives: bool,
-    column: bool = False,
-    watch: Watch | None = None,
+    column: bool,
+    watch: Watch | None,
 ) -> Code:
     """The functions of a model.
 
@@ -104,53 +104,55 @@ def write_code(
     def values(t: Any, x: Any, u: Any, p: Any, d: Any) -> Values:
         return Values(t, x, u, vector.packed(p), d if n_discrete else None)
 
-    def block_of(function: Callable[..., Any], own: Sequence[CArgument] = ()) -> TracedBlock:
-        return known.split(trace(function, *(jnp.zeros(a.shape) for a in (*common, *own))))
+    def block_of(function: Callable[..., Any], more: Sequence[CArgument] = ()) -> TracedBlock:
+        return known.split(trace(function, *(jnp.zeros(a.shape) for a in (*common, *more))))
 
-    def add(
-        name: str, block: TracedBlock, results: Sequence[str], own: Sequence[CArgument] = ()
+    def write(
+        name: str, block: TracedBlock, results: Sequence[str], more: Sequence[CArgument] = ()
     ) -> None:
         pairs = zip(results, block.outputs, strict=True)
         into = [(Buffer(result, "real", o.shape[0]), 0) for result, o in pairs]
-        functions[name] = write_function(block, known.arguments(block, [*common, *own]), into, file)
+        functions[name] = write_function(
+            block, known.arguments(block, [*common, *more]), into, file
+        )
+
+    def add(name: str, function: Callable[..., Any], results: Sequence[str], *names: str) -> None:
+        """Trace and write a function of `ARGUMENTS` and of more arguments with these names."""
+        more = given(*names)
+        write(name, block_of(function, more), results, more)
 
     def evaluate(t: Any, x: Any, u: Any, p: Any, d: Any) -> Any:
         return system.rates_and_read(tuple(outputs), values(t, x, u, p, d))
 
     whole = block_of(evaluate)
     for name, result, which in (("rates", "dx", 0), ("outputs", "y", 1)):
-        add(name, whole.part([whole.outputs[which]]), [result])
+        write(name, whole.part([whole.outputs[which]]), [result])
     if derivatives:
 
         def tangent(t: Any, x: Any, u: Any, p: Any, d: Any, *seeds: Any) -> Any:
             return jax.jvp(lambda t, x, u, p: evaluate(t, x, u, p, d), (t, x, u, p), seeds)[1]
 
-        seeds = given("seed_t", "seed_x", "seed_u", "seed_p")
-        add("tangent", block_of(tangent, seeds), ["ddx", "dy"], seeds)
+        add("tangent", tangent, ["ddx", "dy"], "seed_t", "seed_x", "seed_u", "seed_p")
     if column:
 
         def along_state(t: Any, x: Any, u: Any, p: Any, d: Any, seed: Any) -> Any:
             now = values(t, x, u, p, d)
             return jax.jvp(lambda x: system.rates(now._replace(x=x)), (x,), (seed,))[1:]
 
-        seeds = given("seed_x")
-        add("jacobian_column", block_of(along_state, seeds), ["ddx"], seeds)
+        add("jacobian_column", along_state, ["ddx"], "seed_x")
     if watch is not None:
-        excess = block_of(lambda *now: jnp.reshape(watch.excess(values(*now)), (1,)))
-        add(EXCESS, excess, [EXCESS])
+        add(EXCESS, lambda *now: jnp.reshape(watch.excess(values(*now)), (1,)), [EXCESS])
     if system.edges:
 
         def ahead(t: Any, x: Any, u: Any, p: Any, d: Any, apart: Any) -> Any:
-            found = system.edges.ahead(vector.packed(p), t, apart, d if n_discrete else None)
-            return jnp.stack([found.jump, found.bend])
+            edges = system.edges.ahead(vector.packed(p), t, apart, d if n_discrete else None)
+            return jnp.stack([edges.jump, edges.bend])
 
-        apart = given("apart")
-        add("ahead", block_of(ahead, apart), ["edge"], apart)
+        add("ahead", ahead, ["edge"], "apart")
     if events is not None:
         for name, function in event_functions(events, vector).items():
             names, result = OF_EVENTS[name]
-            own = given(*names)
-            add(name, block_of(function, own), [result], own)
+            add(name, function, [result], *names)
     functions["recalibrate"] = known.function(common[ARGUMENTS.index("p")], file)
     starts = _starts(vector, given("t", "u", "p"), file) if events is None else None
     if starts is not None:

@@ -125,7 +125,7 @@ def _struct(text: ModelText) -> Iterator[str]:
     yield from field_lines(name, "p", text.parameters, sizes.parameters, about)
     yield f"    {name}_real dx[{least(sizes.states)}]; /* derivatives of the states */"
     if text.has_events:
-        runs = [(NameRange(n, "", None, i, 1, 1), "") for i, n in enumerate(text.discrete)]
+        runs = [(NameRange(n, i), "") for i, n in enumerate(text.discrete)]
         about = "discrete variables, first the conditions"
         yield from field_lines(name, "d", runs, sizes.discrete, about)
         yield f"    {name}_events e;"

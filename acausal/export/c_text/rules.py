@@ -73,7 +73,7 @@ def _function(name: str, cost: int = 10) -> Rule:
     return _on_elements(lambda *args: Apply(name, args, args[0].kind), cost)
 
 
-def _prelude(name: str, cost: int = 3) -> Rule:
+def _prelude(name: str, cost: int) -> Rule:
     write = _function(name, cost)
 
     def rule(low: Lowering, operation: TracedOperation, args: list[CArray]) -> list[CArray]:

@@ -17,7 +17,7 @@ from acausal.export.c_text.expressions import literal
 from acausal.export.c_text.functions import CFunction
 from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.steps import attempt_lines, step_lines
-from acausal.export.c_text.text import ModelText, c_file, least, prelude
+from acausal.export.c_text.text import ModelText, c_file, least, opening, prelude
 from acausal.simulation import (
     GROWS,
     KAPPA,
@@ -44,10 +44,8 @@ def _lines(text: ModelText) -> Iterator[str]:
     if text.has_events or text.has_edges:
         yield "#include <float.h>"
     yield from ("#include <stddef.h>", "#include <tgmath.h>", "")
-    yield f"typedef {name}_real real;"
-    yield f"typedef {name} Model;"
+    yield from opening(name, text.precision)
     yield f"typedef {name}_status Status;"
-    yield f"#define R(number) number{'##f' if text.precision == 'float' else ''}"
     for word, is_there in (
         ("EVENTS", text.has_events),
         ("EDGES", text.has_edges),

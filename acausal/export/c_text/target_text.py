@@ -18,7 +18,7 @@ from acausal.export.c_text.header import field_lines
 from acausal.export.c_text.lowering import Workspace
 from acausal.export.c_text.source import helpers, mentions
 from acausal.export.c_text.statements import Buffer
-from acausal.export.c_text.text import least
+from acausal.export.c_text.text import least, opening
 from acausal.export.names import runs
 from acausal.export.target import Target, TargetPort
 from acausal.export.traced import trace
@@ -121,9 +121,7 @@ def target_source(text: TargetText) -> str:
 def _source(text: TargetText) -> Iterator[str]:
     name, upper, target = text.name, text.name.upper(), text.target
     yield from (f'#include "{name}.h"', "#include <tgmath.h>", "")
-    yield f"typedef {name}_real real;"
-    yield f"typedef {name} Model;"
-    yield f"#define R(number) number{'##f' if text.precision == 'float' else ''}"
+    yield from opening(name, text.precision)
     yield ""
     yield from helpers([text.function], text.memory)
     defaults = {p.name: p.default for p in target.inputs if p.default is not None}

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -42,8 +41,8 @@ class ModelText:
     parameters: Sequence[tuple[NameRange, str]]
     start: np.ndarray
     limits: np.ndarray
-    discrete: Sequence[str] = ()
-    discrete_start: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0))
+    discrete: Sequence[str]
+    discrete_start: np.ndarray
 
     @property
     def has_events(self) -> bool:
@@ -97,6 +96,13 @@ def c_file(file: str, name: str) -> list[str]:
     words = {"model_": f"{name}_", "MODEL_": f"{name.upper()}_", "STATUS_": f"{name.upper()}_"}
     text = files("acausal.export.c_text").joinpath(file).read_text("utf-8")
     return re.sub(rf"\b({'|'.join(words)})", lambda word: words[word[0]], text).splitlines()
+
+
+def opening(name: str, precision: str) -> Iterator[str]:
+    """The types of a source, and how it writes numbers."""
+    yield f"typedef {name}_real real;"
+    yield f"typedef {name} Model;"
+    yield f"#define R(number) number{'##f' if precision == 'float' else ''}"
 
 
 @cache

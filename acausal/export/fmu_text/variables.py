@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 
 import numpy as np
@@ -173,7 +173,7 @@ def _groups(text: ModelText, system: System, scalars: bool) -> Iterator[Group]:
         before, after = f"der({run.before}", f"{run.after})"
         if run.index is None:
             before, after = before + after, ""
-        rate = NameRange(before, after, run.index, run.first, run.stride, run.count)
+        rate = replace(run, before=before, after=after)
         per_second = system.unit(f"der({system.states[run.first]})")
         yield _plain(DERIVATIVE, number, rate, per_second, "", None)
     for number, (run, unit) in enumerate(text.outputs):
@@ -181,9 +181,8 @@ def _groups(text: ModelText, system: System, scalars: bool) -> Iterator[Group]:
 
     if (count := len(event_indicators(text))) and not scalars:
         name = "'event indicators'"
-        yield Group(
-            INDICATOR, 0, NameRange(name, "", None, 0, 1, count), name, (count,), "", "", None
-        )
+        run = NameRange(name, 0, count)
+        yield Group(INDICATOR, 0, run, name, (count,), "", "", None)
 
 
 def _plain(

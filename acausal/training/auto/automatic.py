@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -91,15 +91,14 @@ class Automatic:
         """The start of a training, with parameters and first states where the linear start found them."""
         if self.linear is None:
             return start
-        found, states = self.linear.trainable, start.states
-        own = self.linear.problem.shooting
-        if found.states is not None and problem.shooting is not None and own is not None:
-            first = own.of_first(found.states)
-            whole = problem.shooting
+        linear, states = self.linear.trainable, start.states
+        shooting, whole = self.linear.problem.shooting, problem.shooting
+        if linear.states is not None and shooting is not None and whole is not None:
+            first = shooting.of_first(linear.states)
             if len(whole.first) == len(first) and states is not None:
                 moves = (first - whole.start[whole.first]) / whole.scale
                 states = states.at[whole.first].set(moves)
-        return replace(start, modifiers=found.modifiers, states=states)
+        return replace(start, modifiers=linear.modifiers, states=states)
 
 
 def automatic(
@@ -121,57 +120,85 @@ def automatic(
     base = replace(options, sequence_length=None, epochs=None)
 
     def problem_of(data: dict[str, Data], step: StepChoice, x0: Any = None) -> Problem:
-        own = step.of(base, data)
-        own = own if x0 is None else replace(own, x0=x0)
-        return build_problem(system, data, targets, {**params[0], **linear}, own)
+        chosen = step.of(base, data)
+        chosen = chosen if x0 is None else replace(chosen, x0=x0)
+        return build_problem(system, data, targets, {**params[0], **linear}, chosen)
 
     rows = int(np.median([len(data) for data in records.values()]))
-    level = EXPLAINS * np.sqrt(len(targets))
-    step, start, explains, begun = StepChoice(None), None, False, max(2 * PIECE, rows // 16)
-    for trial in tried_steps(options, system.events is not None):
-        found = _start(problem_of(part, trial), shapes)
-        if start is None or found.loss < 0.8 * start.loss:
-            step, start, explains = trial, found, found.loss < level
-        if explains:
+    begun = _begin(problem_of, part, tried_steps(options, system.events is not None), shapes, rows)
+    start, is_nrmse = begun.start, options.loss == "nrmse"
+    noise = noise_loss(problem_of(part, begun.step).records) if is_nrmse else None
+    step = chosen_steps(begun.step, start.problem, start.trainable, noise, options)
+    laws = _scales(begun, shapes)
+    if shapes:
+        start = with_constants_at_zero(start, shapes, {n: laws[n][0] for n in shapes})
+        begun = begun._replace(start=start)
+        laws = _scales(begun, shapes)
+    at_zero = {n for n in start.loose if shapes[n].every == 1}
+    scaled = tuple(
+        each | {n: with_scales(each[n], *laws[n], without_constant=n in at_zero) for n in shapes}
+        for each in params
+    )
+    stages = _stages(
+        start.problem, rows, begun.rows, scaled[0], names, begun.explains, noise, options
+    )
+    free = None if step.solver is None or options.dt is not None else step
+    linear_start = start if shapes else None
+    return Automatic(step.of(options, records), scaled, stages, free, linear_start, fixed)
+
+
+class _Begin(NamedTuple):
+    """Where a training begins.
+
+    Attributes:
+        step: of its integration.
+        start: with linear laws.
+        explains: whether it explains whole records; ``rows``: else, of their beginnings that come first.
+    """
+
+    step: StepChoice
+    start: LinearStart
+    explains: bool
+    rows: int
+
+
+def _begin(
+    problem_of: Callable[..., Problem],
+    part: dict[str, Data],
+    trials: Iterable[StepChoice],
+    shapes: dict[str, LawShape],
+    rows: int,
+) -> _Begin:
+    """The linear start of whole records; where that explains nothing, of pieces or of beginnings of them."""
+    begun: _Begin | None = None
+    for trial in trials:
+        whole = _start(problem_of(part, trial), shapes)
+        if begun is None or whole.loss < 0.8 * begun.start.loss:
+            explains = bool(whole.loss < EXPLAINS * np.sqrt(len(whole.problem.targets)))
+            begun = _Begin(trial, whole, explains, max(2 * PIECE, rows // 16))
+        if begun.explains:
             break
-        pieces, begins = _pieces(part, found.problem) if shapes else ({}, {})
+        pieces, begins = _pieces(part, whole.problem) if shapes else ({}, {})
         if pieces:
             short = _start(problem_of(pieces, trial, begins), shapes)
             if np.isfinite(short.loss):
-                found = replace(short.trainable, states=None)
+                trainable = replace(short.trainable, states=None)
                 title = f"linear law of pieces of {PIECE} samples"
-                step, start = trial, replace(short, trainable=found, title=title)
+                start = replace(short, trainable=trainable, title=title)
+                begun = begun._replace(step=trial, start=start)
                 break
-    assert start is not None
-    if shapes and not _begins_anywhere(start.problem):
-        lengths = () if explains else (rows // 4, rows // 16, 2 * PIECE)
-        for first in (n for n in lengths if n >= 2 * PIECE):
-            begin = {n: _first_rows(data, first) for n, data in part.items()}
-            short = _start(problem_of(begin, step), shapes)
-            if short.loss < start.loss:
-                start = replace(short, title=f"linear law of the first {first} samples")
-                begun = first
-            if short.loss < ALMOST * np.sqrt(len(targets)):
-                break
-    scale = options.loss == "nrmse"
-    noise = noise_loss(problem_of(part, step).records) if scale else None
-    step = chosen_steps(step, start.problem, start.trainable, noise, options)
-    laws = _scales(start, shapes, explains)
-    if shapes:
-        start = with_constants_at_zero(start, shapes, {n: laws[n][0] for n in shapes})
-        laws = _scales(start, shapes, explains)
-    at_zero = {n for n in start.loose if shapes[n].every == 1}
-    new = tuple(
-        {
-            **own,
-            **{n: with_scales(own[n], *laws[n], without_constant=n in at_zero) for n in shapes},
-        }
-        for own in params
-    )
-    settled = step.of(options, records)
-    stages = _stages(start.problem, rows, begun, new[0], names, explains, noise, options)
-    free = None if step.solver is None or options.dt is not None else step
-    return Automatic(settled, new, stages, free, start if shapes else None, fixed)
+    assert begun is not None
+    if begun.explains or not shapes or _begins_anywhere(begun.start.problem):
+        return begun
+    for first in (n for n in (rows // 4, rows // 16, 2 * PIECE) if n >= 2 * PIECE):
+        beginnings = {n: _first_rows(data, first) for n, data in part.items()}
+        short = _start(problem_of(beginnings, begun.step), shapes)
+        if short.loss < begun.start.loss:
+            short = replace(short, title=f"linear law of the first {first} samples")
+            begun = begun._replace(start=short, rows=first)
+        if short.loss < ALMOST * np.sqrt(len(short.problem.targets)):
+            break
+    return begun
 
 
 def _start(problem: Problem, shapes: dict[str, LawShape]) -> LinearStart:
@@ -188,13 +215,13 @@ def _part(records: dict[str, Data], most: int) -> dict[str, Data]:
     lengths = [len(d) for d in records.values()]
     if sum(lengths) <= most:
         return records
-    found: dict[str, Data] = {}
+    part: dict[str, Data] = {}
     for name, data in sorted(records.items(), key=lambda item: -len(item[1])):
-        left = most - sum(len(d) for d in found.values())
+        left = most - sum(len(d) for d in part.values())
         if left < 2:
             break
-        found[name] = _first_rows(data, left)
-    return {n: found[n] for n in records if n in found}
+        part[name] = _first_rows(data, left)
+    return {n: part[n] for n in records if n in part}
 
 
 def _first_rows(data: Data, rows: int) -> Data:
@@ -230,18 +257,17 @@ def _pieces(
     return pieces, begins
 
 
-def _scales(
-    start: LinearStart, shapes: dict[str, LawShape], explains: bool
-) -> dict[str, tuple[Scales, Affine]]:
+def _scales(begun: _Begin, shapes: dict[str, LawShape]) -> dict[str, tuple[Scales, Affine]]:
     """By network, its scales and its linear law."""
     if not shapes:
         return {}
+    start = begun.start
     problem, records = start.problem, start.problem.records
-    found = problem.simulate(start.trainable)
-    x = found.x if explains or records.x is None else records.x
-    passed = x if found.d is None else jnp.concatenate([x, found.d], axis=1)
-    known = jnp.asarray(np.flatnonzero(np.isfinite(np.asarray(passed)).all(axis=1)))
-    seen = problem.seen(start.trainable, x, found.d, known)
+    simulated = problem.simulate(start.trainable)
+    x, d = simulated.x if begun.explains or records.x is None else records.x, simulated.d
+    passed = x if d is None else jnp.concatenate([x, d], axis=1)
+    finite = jnp.asarray(np.flatnonzero(np.isfinite(np.asarray(passed)).all(axis=1)))
+    seen = problem.seen(start.trainable, x, d, finite)
     return {
         n: _scales_of(np.asarray(seen[n]), start.laws[n], start.sensitive[n], shapes[n])
         for n in shapes

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from numbers import Real
 from typing import Any, NamedTuple, TypeAlias, cast
@@ -48,12 +48,8 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
         return Split(data, None, {})
     if isinstance(validation, float | int | Real):
         return _shared(data, validation)
-    if names := named_records(validation):
-        for name in names:
-            known_name(name, data, "validation: there is no record")
+    if names := named_records(validation, data):
         training = {n: d for n, d in data.items() if n not in names}
-        if not training:
-            raise DataError(f"validation={listing(names)} leaves no record to train on.")
         return Split(training, {n: data[n] for n in names}, {})
     held = records_of(cast(RecordsLike, validation))
     for name, record in held.items():
@@ -74,19 +70,24 @@ def _are_alike(one: Data, other: Data) -> bool:
     )
 
 
-def named_records(validation: Validation) -> tuple[str, ...]:
-    """The records to hold out that are chosen by name.
+def named_records(validation: Validation, known: Collection[str]) -> tuple[str, ...]:
+    """The records to hold out that are chosen by name, of those that are known; empty for another choice.
 
     Raises:
-        DataError: for an empty list.
+        DataError: for an empty list, a name that is not a record, or if nothing is left to train on.
     """
-    if isinstance(validation, str):
-        return (validation,)
-    if not isinstance(validation, list | tuple) or not all(isinstance(n, str) for n in validation):
+    chosen = [validation] if isinstance(validation, str) else validation
+    if not isinstance(chosen, list | tuple) or not all(isinstance(n, str) for n in chosen):
         return ()
-    if not validation:
+    if not chosen:
         raise DataError("validation=[] names nothing to hold out: leave it out, or name some.")
-    return tuple(cast(Sequence[str], validation))
+    names = tuple(
+        known_name(name, known, "validation: there is no record")
+        for name in cast(Sequence[str], chosen)
+    )
+    if len(set(names)) == len(known):
+        raise DataError(f"validation={listing(names)} leaves no record to train on.")
+    return names
 
 
 def _shared(data: dict[str, Data], share: Any) -> Split:
