@@ -88,7 +88,7 @@ def shown(value: object, limit: int = 80) -> str:
 
 
 def percent(share: float) -> str:
-    """A share for a message: in percent, with two digits, as many as it has from a hundred on."""
+    """A share for a message: in percent, with two digits; from 100 % on without decimals."""
     return f"{100 * share:.2g} %" if abs(share) < 0.995 else f"{100 * share:.0f} %"
 
 
@@ -105,13 +105,18 @@ def cut_short(things: Sequence[T], most: int, line: Callable[[T], str] = str) ->
     return [*map(line, things[:most]), *more]
 
 
+def like(name: object, known: Iterable[str], share: float = 0.6) -> str | None:
+    """The known name that has at least this share of a name's letters, in order and of either case, if there is one."""
+    alike = {candidate.casefold(): candidate for candidate in known}
+    close = get_close_matches(str(name)[:200].casefold(), alike, n=1, cutoff=share)
+    return alike[close[0]] if close else None
+
+
 def nearest(name: object, known: Iterable[str]) -> str:
     """A clause that names the nearest known name, or the known ones where none is near."""
     candidates = list(map(str, known))
-    alike = {candidate.casefold(): candidate for candidate in candidates}
-    close = get_close_matches(str(name)[:200].casefold(), alike, n=1, cutoff=0.6)
-    if close:
-        return f"did you mean '{alike[close[0]]}'?"
+    if close := like(name, candidates):
+        return f"did you mean '{close}'?"
     if not candidates:
         return "there are none to choose from."
     return f"known are {listing(candidates)}."

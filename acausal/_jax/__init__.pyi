@@ -58,6 +58,7 @@ from .small_factors import (
 from .tracing import (
     INLINED as INLINED,
     array as array,
+    differentiated as differentiated,
     known as known,
     need_known as need_known,
     numpy_or_jax as numpy_or_jax,

@@ -28,6 +28,20 @@ def traced(*trees: object) -> bool:
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(trees))
 
 
+def differentiated(*trees: object) -> bool:
+    """Whether derivatives by any leaf may be wanted: JAX traces it, and not only to map.
+
+    JAX does not document how its tracers hold values. Where it changes that, derivatives may be wanted.
+    """
+    return any(isinstance(_unmapped(leaf), Tracer) for leaf in jax.tree.leaves(trees))
+
+
+def _unmapped(leaf: Any) -> object:
+    while isinstance(leaf, Tracer) and hasattr(leaf, "batch_dim") and hasattr(leaf, "val"):
+        leaf = leaf.val
+    return leaf
+
+
 def need_known(
     function: str, *given: object, error: type[AcausalError] = DataError, computes: bool = True
 ) -> None:

@@ -68,8 +68,8 @@ class Silent:
         if not self.parameter:
             whose = f" of '{name}'" if name else ""
             return (
-                f"Values jump at the condition {self.condition}{whose}, which is no event: derivatives do not see how "
-                f"its instant moves; {remedy}."
+                f"Values jump at the condition {self.condition}{whose}, which is no event: if its "
+                f"instant moves, derivatives do not see it; {remedy}."
             )
         return (
             f"The gradient by '{name}' is zero, as it acts through the condition {self.condition} alone, which is no "

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
-from acausal.errors import ConnectionError, DeclarationError, nearest, need_text, shown
+from acausal.errors import ConnectionError, DeclarationError, like, nearest, need_text, shown
 from acausal.modeling.budget import charge
 from acausal.modeling.connector import Connector, check_name
 from acausal.modeling.declarations import Declaration, element_name, is_number
@@ -24,6 +24,9 @@ from acausal.modeling.node import Node
 from acausal.modeling.replacing import replace_part
 from acausal.modeling.summary import summary
 from acausal.modeling.symbols import Eq
+
+SLIP = 0.8
+"""A name with this share of the letters of a parameter's is taken for a slip of it."""
 
 
 class Component:
@@ -193,9 +196,15 @@ class Component:
             if name not in self._node.constants:
                 self._claim(name, is_new=hasattr(Component, name))
                 if self._node.parent is not None and is_number(value):
-                    self.modify(**{name: value})  # of a part that is finished: refused
+                    self._refuse_slip(name)
             self._node.constants[name] = value
             object.__setattr__(self, name, value)
+
+    def _refuse_slip(self, name: str) -> None:
+        """Refuse a number under a name that is like a parameter's, and of nothing: it would be ignored."""
+        known = [*self._declared, *self._node.own_declarations]
+        if not name.startswith("_") and not hasattr(type(self), name) and like(name, known, SLIP):
+            raise DeclarationError(f"{self._node.label} has no '{name}': {nearest(name, known)}")
 
     def _claim(self, name: str, is_new: bool = True) -> None:
         """Make sure that a name is free; unless ``is_new``, it may be that of a default of the class."""

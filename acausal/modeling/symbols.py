@@ -19,7 +19,7 @@ import sympy as sp
 from sympy.logic.boolalg import Boolean
 
 from acausal.errors import DeclarationError, shown
-from acausal.modeling.declarations import Declaration, element_names
+from acausal.modeling.declarations import Declaration, Variable, element_names
 from acausal.modeling.written import as_written
 
 HALF = sp.Rational(1, 2)
@@ -32,14 +32,23 @@ class TimeSymbol(sp.Symbol):
 
     @property
     def _diff_wrt(self) -> Literal[True]:
-        frame = sys._getframe(1)
-        while frame.f_back is not None and _package(frame) == "sympy":
+        frame: FrameType | None = sys._getframe(1)
+        expression = (
+            frame.f_locals.get("expr") if frame else None
+        )  # of sympy's Derivative, which asks
+        while frame is not None and _package(frame) == "sympy":
             frame = frame.f_back
-        if _package(frame) != "acausal":
+        symbols = expression.free_symbols if isinstance(expression, sp.Basic) else ()
+        if frame is not None and _package(frame) != "acausal" and any(map(_varies, symbols)):
             raise DeclarationError(
                 "diff(time) takes variables for constants, so that it is zero; a derivative in time is ac.der(...)"
             )
         return True
+
+
+def _varies(symbol: object) -> bool:
+    """Whether it stands for a variable of a model."""
+    return isinstance(symbol, Reference) and isinstance(symbol.declaration, Variable)
 
 
 time = TimeSymbol("time", real=True)

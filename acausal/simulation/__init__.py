@@ -47,6 +47,7 @@ from acausal.simulation.solvers import (
     Solver as Solver,
     for_adaptive_steps as for_adaptive_steps,
     for_fixed_steps as for_fixed_steps,
+    is_bdf as is_bdf,
     solver_named as solver_named,
 )
 from acausal.simulation.stability import (

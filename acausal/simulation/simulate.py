@@ -16,7 +16,16 @@ from jaxtyping import Float
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
-from acausal._jax import array, is_real, known, need_double_precision, precision, select, traced
+from acausal._jax import (
+    array,
+    differentiated,
+    is_real,
+    known,
+    need_double_precision,
+    precision,
+    select,
+    traced,
+)
 from acausal.codegen import Packed
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
@@ -127,9 +136,7 @@ def simulate(
     """
     need_compiled(system, "simulate")
     need_double_precision()
-    called = solver if isinstance(solver, str) else ""
-    is_bdf = called == "bdf" or isinstance(solver, solvers.BDF)
-    if not is_bdf and any(map(_has_traced, (params, x0, inputs))):
+    if not solvers.is_bdf(solver) and any(map(_has_traced, (params, x0, inputs))):
         system = system.watching()
     n_states = len(system.states)
     check_tolerances(rtol, ATOL if atol is None else atol, n_states)
@@ -156,7 +163,7 @@ def simulate(
     LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
     forward = isinstance(adjoint, dfx.ForwardMode)
     chosen = None
-    if called != "auto":
+    if not isinstance(solver, str) or solver != "auto":
         with_events = system.events is not None
         chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
     times = saved
@@ -236,9 +243,9 @@ def _warn_of_few_points(solution: Solution, span: float) -> None:
 
 
 def _has_traced(given: object) -> bool:
-    """Whether JAX traces some of what is given by name, or in a row: derivatives by it may be wanted."""
+    """Whether derivatives by some of what is given by name, or in a row, may be wanted."""
     values = given.values() if isinstance(given, Mapping) else (given,)
-    return not isinstance(given, Packed) and any(map(traced, values))
+    return not isinstance(given, Packed) and any(map(differentiated, values))
 
 
 def _span(t: float | tuple[float, float]) -> tuple[float, float]:

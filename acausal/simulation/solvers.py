@@ -104,6 +104,11 @@ def solver_named(solver: str | Solver, *, fixed: bool = False, events: bool = Fa
     return solver
 
 
+def is_bdf(solver: object) -> bool:
+    """Whether a solver that is asked for goes on from steps before, so that it knows no events."""
+    return isinstance(solver, BDF) or (isinstance(solver, str) and solver == "bdf")
+
+
 def for_adaptive_steps(solver: Solver) -> Solver:
     """The solver, if it can choose its steps.
 

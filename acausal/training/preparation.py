@@ -24,7 +24,8 @@ from acausal.training.strategy import Segment, segments, stages
 from acausal.training.streaming import look_at
 
 if TYPE_CHECKING:
-    from acausal.system import System
+    from acausal.simulation import is_bdf
+from acausal.system import System
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +101,8 @@ def prepare(
         {**entry(system.parameters(seed), options.prior), **(given or {})}
         for seed, given in zip(seeds, params, strict=True)
     ]
-    system = system.watching()
+    if not is_bdf(options.solver):
+        system = system.watching()
     given = data if isinstance(data, Stream) else records_of(data)
     arguments: dict[str, Any] = {
         "system": system, "data": given, "targets": targets, "options": options, "seeds": seeds, "params": params

@@ -19,7 +19,7 @@ from jaxtyping import Array, Float
 from acausal.errors import listing, percent
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.changes import changes
-from acausal.training.uncertainty.laplace import by_record, sensitivity
+from acausal.training.uncertainty.laplace import by_record, residuals_and_jacobian
 from acausal.training.uncertainty.record_elimination import untaken
 
 LIKELY = 0.75
@@ -62,7 +62,7 @@ class Cause:
     def remedy(self, size: float) -> str:
         """What to do about it."""
         if self.is_delay:
-            kind = f"ac.Delay(min={2 * size:.1g})" if size < 0 else "ac.Delay()"
+            kind = f"ac.Delay({'min' if size < 0 else 'max'}={3 * size:.1g})"
             return f"train it (delays={{{', '.join(f'{name!r}: {kind}' for name in self.names)}}})."
         return f"if you do not know it so well, train it, too (modifiers=['{self.names[0]}'])."
 
@@ -70,16 +70,19 @@ class Cause:
 def likely_causes(fit: TrainedModel) -> str | None:
     """What the residuals of a fit look like, in a sentence; ``None`` if like nothing in particular."""
     problem = fit.problem
+    if not all(map(len, fit.arguments.values())):
+        return None  # a network that is never called takes nothing, and has no place to bump
     change = changes(problem, fit.trained, fit.arguments)
-    left, jacobian = sensitivity(problem, change)
+    left, jacobian = residuals_and_jacobian(problem, change)
     causes = [*_parameters(fit), *_delays(fit)]
     effects = np.stack([left, *(cause.effect for cause in causes)], axis=-1)
     counts = np.asarray(problem.records.weight) > 0
     size = np.sqrt(np.sum(left**2, axis=0) / np.maximum(np.sum(counts, axis=0), 1))
     unit = np.where(counts & (size > 0), 1 / np.where(size > 0, size, 1.0), 0.0)[..., None]
     taken, effects = ((a * unit).reshape(left.size, -1) for a in (jacobian, effects))
-    if not (np.isfinite(taken).all() and np.isfinite(effects).all()):
+    if not (np.isfinite(taken).all() and np.isfinite(effects[:, 0]).all()):
         return None
+    effects = np.where(np.isfinite(effects).all(axis=0), effects, 0.0)
     rest = untaken(by_record(change, taken), effects)
     squares = np.sum(rest**2, axis=0)
     along = rest[:, 0] @ rest

@@ -72,7 +72,7 @@ def confidence(
         TrainingError: if the model diverges over a record.
     """
     change = changes(problem, trainable, seen)
-    left, jacobian = sensitivity(problem, change)
+    left, jacobian = residuals_and_jacobian(problem, change)
     if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
         raise TrainingError(
             "The trained model diverges over the record; its confidence cannot be computed."
@@ -119,7 +119,7 @@ def confidence(
     )
 
 
-def sensitivity(
+def residuals_and_jacobian(
     problem: Problem, change: Changes
 ) -> tuple[Float[np.ndarray, "N n_targets"], Float[np.ndarray, "N n_targets n"]]:
     """The residuals, and the Jacobian of the predictions."""
