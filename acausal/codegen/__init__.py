@@ -30,6 +30,7 @@ from acausal.codegen.iteration_matrix import (
     DenseIterationMatrix as DenseIterationMatrix,
     SparseIterationMatrix as SparseIterationMatrix,
 )
+from acausal.codegen.jumping import explain_jump as explain_jump
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
 from acausal.codegen.newton import Dense as Dense, root as root
 from acausal.codegen.nonfinite import (

@@ -15,6 +15,7 @@ import sympy as sp
 
 from acausal.codegen.gather import Gather
 from acausal.flattening import Integers, LeavesCaches, Origin
+from acausal.modeling import as_written
 from acausal.structure import Pattern
 
 Place = tuple[int, int]
@@ -80,7 +81,7 @@ class ArrayFormula(ExplicitInstruction):
     @property
     def text(self) -> str:
         """The right-hand side in words."""
-        return f" = {self.expression}"
+        return f" = {as_written(self.expression)}"
 
     def at(self, row: int) -> tuple[ArrayFormula, int]:
         """The formula that gives a row, and which of its instances that is."""

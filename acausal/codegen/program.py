@@ -119,6 +119,12 @@ class Program(LeavesCaches):
         return len(some) > FEW or not simple
 
     @cached_property
+    def searches(self) -> bool:
+        """Whether the rates follow from nonlinear loops."""
+        some = (self.instructions[i] for i in self.needed(self.rate_sources))
+        return any(not isinstance(o, ExplicitInstruction) and not o.is_linear for o in some)
+
+    @cached_property
     def filled_by(self) -> dict[int, int]:
         """For every array that is computed, the instruction that fills it."""
         pairs = enumerate(zip(self.first, self.instructions, strict=True))

@@ -114,3 +114,4 @@ from acausal.modeling.symbols import (
     references as references,
     time as time,
 )
+from acausal.modeling.written import as_written as as_written

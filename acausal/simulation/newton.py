@@ -232,10 +232,12 @@ def _root(found: State, jacobian: StateJacobian, equation: Equation) -> State:
 
 
 @_root.def_jvp
-def _(primals: Any, tangents: Any) -> tuple[State, State]:
+def _(primals: Any, tangents: Any) -> tuple[State, State | None]:
     jacobian, equation = primals[1:]
     x = _root(*primals)
     _, change = eqx.filter_jvp(lambda e: e.residual(x), (equation,), (tangents[2],))
+    if change is None:  # the equation reads nothing that moves
+        return x, None
     factors = jacobian.factorized(equation.rates, x, equation.c)
     return x, -jacobian.iteration_matrix.solve(factors, change)
 

@@ -11,7 +11,7 @@ from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
 from acausal._jax import compiled, traced
-from acausal.codegen import Values, said_by_modules
+from acausal.codegen import Values, explain_jump, said_by_modules
 from acausal.errors import SimulationError
 from acausal.events import COINCIDE, Events, guards
 from acausal.simulation.finite import explain_ahead
@@ -150,6 +150,11 @@ class Run(NamedTuple):
 
         reason = explain_ahead(self.system, later, at, ahead)
         return "" if reason is None else f" There {reason}"
+
+    def explain_jump(self, at: Values, ahead: float) -> str | None:
+        """A clause on a formula that jumps at a point, within some seconds along its derivative, or None."""
+        other = at._replace(x=at.x + ahead * self.system.rates(at))
+        return explain_jump(self.system.program, at, other, self.system.reduced.name)
 
 
 def limits_of(

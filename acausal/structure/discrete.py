@@ -17,16 +17,22 @@ def discrete_nodes(model: FlatModel, aliases: AliasFree) -> Integers:
     """
     if not len(model.discrete):
         return model.discrete
+    free = {aliases.zero: "zero"}
+    for v in model.inputs.tolist():
+        node, what = int(aliases.representative[v]), f"the input '{model.layout.variable(v)}'"
+        while node >= 0:
+            free[node] = what
+            node, what = int(aliases.derivative[node]), f"the derivative of {what}"
     given: dict[int, str] = {}
     for update in (*model.events.guards, *model.events.updates):
         components = update.group.components.tolist()
         for variable, component in zip(update.targets.tolist(), components, strict=True):
             origin = model.stated_at(component, update.group.origins[0])
             node, name = int(aliases.representative[variable]), model.layout.variable(variable)
-            if node == aliases.zero or node in set(aliases.representative[model.inputs].tolist()):
-                what = "zero" if node == aliases.zero else "an input of the model"
+            if node in free:
+                hint = "" if node == aliases.zero else "; or make the input an Output, if it is set"
                 raise StructureError(
-                    f"the discrete variable '{name}' is connected to {what}, but given by {origin}; remove one"
+                    f"the discrete variable '{name}' is tied to {free[node]}, but given by {origin}; remove one{hint}"
                 )
             if node in given:
                 raise StructureError(

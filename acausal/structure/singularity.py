@@ -33,14 +33,15 @@ def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]
     )
     if found is None and not aliases.redundant:
         return None
-    unknowns = model.n_variables - len(model.inputs)
+    unknowns = model.n_variables - len(model.inputs) - len(model.discrete)
     parts = [f"structurally singular: {model.n_equations} equations for {unknowns} unknowns"]
     unmatched = [bottoms[i] for i in (found.unmatched_variables if found else ())]
     origins = list(zip(system.origin, system.component, strict=True))
     missing = [system.name(node) for node in unmatched]
     unmatched_equations = found.unmatched_equations if found else ()
-    surplus = [origins[e] for e in unmatched_equations]
     reached = [*(found.equations if found else ())]
+    surplus = [] if missing else _from_outside(system, reached)
+    surplus = surplus or [origins[e] for e in unmatched_equations]
     reached += [other for e in unmatched_equations for other in combined.get(e, ())]
     related = [origins[e] for e in reached if origins[e] not in surplus]
     if missing:
@@ -106,6 +107,27 @@ def inputs_that_are_set(model: FlatModel, surplus: Sequence[tuple[Origin, int]])
         f"Does an equation set {what} {listing(found)}, to which nothing is connected? "
         "Connect it, or make it an Output."
     )
+
+
+def _from_outside(system: Equations, equations: Sequence[int]) -> list[tuple[Origin, int]]:
+    """The equations of other components, such as the one above, that name an input that these equations read."""
+    model, aliases = system.model, system.aliases
+    read = {v for e in equations for v in system.variables[e]}
+    inputs: list[int] = []
+    for v in model.inputs.tolist():
+        node = aliases.representative[v]
+        while node >= 0 and node not in read:
+            node = aliases.derivative[node]
+        inputs += [v] if node >= 0 else []
+    own = {v: model.layout.variable(v).rpartition(".")[0] for v in inputs}
+    found: dict[tuple[Origin, int], None] = {}
+    for group in model.groups if inputs else ():
+        for row, column in np.argwhere(np.isin(group.variables, inputs)).tolist():
+            component = int(group.components[row])
+            path = own[int(group.variables[row, column])]
+            if component >= 0 and model.layout.paths[component] != path:
+                found[group.origins[row], component] = None
+    return list(found)
 
 
 def forgotten_equations(model: FlatModel) -> str | None:

@@ -170,6 +170,6 @@ def test_derivatives_over_a_literal_jump_are_warned_of() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         end(0.0)
-    says = r"Values jump at the condition x > 0\.5, which is no event: derivatives do not see how"
+    says = r"Values jump at the condition x > 0\.5, which is no event: if its instant moves, derivatives do not see it"
     with pytest.warns(UserWarning, match=says):
         jax.grad(end)(0.0)

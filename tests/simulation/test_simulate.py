@@ -598,3 +598,18 @@ def test_points_further_apart_than_a_period_are_warned_of(source: ac.Component) 
     ):
         ac.simulate(system, 1.0)
     ac.simulate(system, 1.0, saveat=[1.0])
+
+
+@pytest.mark.parametrize(
+    ("law", "told"),
+    [
+        (ac.sign, r"There 'der\(x\)' = 0\.3 - sign\(x\) jumps from -0\.7 to 1\.3: the model slides"),
+        (lambda x: ac.where(x > 0, 1, -1), r"There 'der\(x\)' = 0\.3 - where\(x > 0, 1, -1\) jumps"),
+        (lambda x: ac.tanh(1e9 * x), "Perhaps it is stiff"),
+    ],
+)  # fmt: skip
+def test_the_formula_along_which_a_model_without_events_slides_is_named(law, told):
+    component = Equations("x", lambda s: [ac.Eq(ac.der(s.x), 0.3 - law(s.x))])
+    component.modify(x=ac.Start(1.0, fixed=True))
+    with pytest.raises(ac.SimulationError, match=told):
+        ac.simulate(ac.compile(component), 2.0, solver="tsit5", max_steps=1000)

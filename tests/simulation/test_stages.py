@@ -1,5 +1,6 @@
 """The nonlinear equations of implicit steps: tolerances in the state's units, gradients, sparse matrices, damping."""
 
+from functools import partial
 from typing import Any
 
 import diffrax as dfx
@@ -161,3 +162,18 @@ def test_a_first_step_whose_stages_have_no_solution_leaves_no_trace_at_the_start
     found = ac.simulate(system, 40.0, x0={"a": 1.0, "b": 0.0}, solver="kvaerno5", saveat=[0, 40.0])
     np.testing.assert_array_equal(found.x[0], [1.0, 0.0])
     np.testing.assert_allclose(found.x[1], [0.7158271, 9.185535e-6], rtol=2e-6)  # Hairer and Wanner
+
+
+def test_the_right_side_with_a_loop_is_written_once_for_all_stages_of_a_fixed_step() -> None:
+    component = Equations("x y", lambda s: [ac.Eq(ac.der(s.x), -s.y), ac.Eq(s.y + s.y**3, s.x)])
+    component.modify(x=ac.Start(1.0, fixed=True))
+    system = ac.compile(component)
+
+    def end(x0: Any, solver: str) -> Any:
+        return ac.simulate(system, 1.0, x0={"x": x0}, dt=0.1, solver=solver)["x"][-1]
+
+    heun, rk4 = (str(jax.make_jaxpr(partial(end, solver=s))(1.0)) for s in ("heun", "rk4"))
+    assert rk4.count("while[") == heun.count("while[")
+    # with x = y + y³, dt = -(1/y + 3 y) dy
+    y0, y1 = 0.6823278038280193, ac.simulate(system, 1.0, dt=0.1, solver="rk4")["y"][-1]
+    assert np.log(y0 / y1) + 1.5 * (y0**2 - y1**2) == pytest.approx(1.0, abs=1e-6)

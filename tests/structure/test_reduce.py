@@ -567,9 +567,48 @@ class Forgetful(SpringDamper):
         yield Eq(self.f, self.c * self.s_rel)
 
 
+class Watched(ac.Component):
+    """A tank whose level a switch watches; an equation sets the switch's input."""
+
+    def __init__(self, leak=1.0):
+        super().__init__()
+        self.tank = Equations(
+            "level", lambda s: [Eq(der(s.level), s.q - leak * s.level)], inputs="q"
+        )
+        self.switch = Switch()
+        self.connect(self.switch.flow, self.tank.q)
+
+    def equations(self):
+        yield from super().equations()
+        yield Eq(self.switch.level, self.tank.level)
+
+
+class Switch(ac.Component):
+    """A flow below a level."""
+
+    level, flow, on = ac.Input(), ac.Output(), ac.Discrete(0, kind="bool")
+
+    def equations(self):
+        yield Eq(self.on, self.level < 1)
+        yield Eq(self.flow, self.on)
+
+
 @pytest.mark.parametrize(
     ("whole", "told"),
     [
+        (
+            lambda: Watched(),
+            [
+                "4 equations for 3 unknowns",
+                "redundant equations: 'Watched: switch.level = tank.level'",
+                "together with: 'tank (Equations: der(level) = -1.0*level + q)'",
+                "set the Input 'switch.level', to which nothing is",
+            ],
+        ),
+        (
+            lambda: Watched(leak=0),
+            ["discrete variable 'switch.on' is tied to the derivative of the input 'switch.level'", "an Output"],
+        ),
         (
             lambda: model("a.flange_a - x.flange", "a.flange_b - y.flange", a=Mass(m=1.0), x=Fixed(), y=Fixed()),
             ["11 equations for 11 unknowns", "undetermined: 'a.flange_a.f'", "y.flange", "joined rigidly"],

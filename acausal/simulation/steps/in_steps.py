@@ -181,6 +181,11 @@ def _stopped(
             "The model may diverge there: check its parameters, initial values and inputs."
         )
     slides = "" if found.log is None else f"It has had {int(found.log.total)} events{last}. "
+    if jump := run.explain_jump(at, ahead):
+        return StepLimitError(
+            f"{where}, after max_steps={max_steps}. {slides}There {jump}: the model slides along this jump. "
+            "Give it a hysteresis, or a smooth transition."
+        )
     hint = "it is stiff (choose solver='auto' or 'stiff'), " if explicit else ""
     return StepLimitError(
         f"{where}, after max_steps={max_steps}. {slides}Perhaps {hint}it slides or diverges there, or its inputs are "

@@ -4,6 +4,7 @@ import warnings
 from collections.abc import Iterator
 from typing import Any
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -246,3 +247,27 @@ def test_an_edge_that_an_event_moves_has_a_gradient_where_fixed_steps_end(at: An
 
     for derivative in (jax.grad, jax.jacfwd):
         np.testing.assert_allclose(derivative(end)(jnp.array(at)), [-2.0, -2.0], rtol=1e-9)
+
+
+class _LearnedThreshold(ac.Component):
+    """A rate that halves at a threshold; a network gives the threshold, and nothing else."""
+
+    threshold = ac.Module(lambda key: ac.MLP(1, 2, 1, "tanh", key=key))
+    x = ac.Variable(fixed=True)
+
+    def equations(self) -> Iterator[Any]:
+        slow = self.x > 0.5 + self.threshold(1.0)
+        yield ac.Eq(ac.der(self.x), ac.where(slow, 1, 2, events=True))
+
+
+def test_a_network_in_conditions_alone_has_forward_derivatives_through_implicit_steps() -> None:
+    system = ac.compile(_LearnedThreshold())
+    net = system.parameters()["threshold"]
+
+    def end(shift: Any) -> Any:
+        moved = eqx.tree_at(lambda n: n.biases[-1], net, net.biases[-1] + shift)
+        params = {**system.parameters(), "threshold": moved}
+        return ac.simulate(system, 1.0, params=params, dt=0.1, solver="stiff")["x"][-1]
+
+    # it takes (0.5 + net) / 2 to the threshold
+    assert float(jax.jacfwd(end)(0.0)) == pytest.approx(0.5, rel=1e-9)
