@@ -30,6 +30,11 @@ WITHIN = ("acausal", "numpy", "sympy")
 class TimeSymbol(sp.Symbol):
     """The symbol of time. Models differentiate by it with `der`: to sympy, their variables do not depend on it."""
 
+    @classmethod
+    def class_key(cls) -> Any:
+        """Its place in sympy's order: that of other symbols."""
+        return sp.Symbol.class_key()
+
     @property
     def _diff_wrt(self) -> Literal[True]:
         frame: FrameType | None = sys._getframe(1)

@@ -82,7 +82,7 @@ def test_an_event_before_a_jump_has_its_exact_gradient(path: str) -> None:
     found = run(*point)
     np.testing.assert_allclose(found["x"], [0.7, 0.7 + 4 + 0.5], atol=1e-12)
     assert [(e.t, e.condition) for e in found.events] == [
-        (0.3, "tw <= time"),
+        (0.3, "time >= tw"),
         (0.5, "an input jumps"),
     ]
     by_tw, by_values = jax.grad(lambda *a: run(*a)["x"][-1], (0, 1))(*point)
