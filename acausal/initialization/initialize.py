@@ -280,10 +280,7 @@ class Initializer(LeavesCaches):
     def _known(self, argument: str, names: Sequence[str]) -> None:
         for name in names:
             if name not in self.names:
-                raise DataError(
-                    f"{argument}: '{name}' is not a state; {nearest(name, self.names)} Other variables start by "
-                    "ac.Start(..., fixed=True) in the model."
-                )
+                raise DataError(f"{argument}: '{name}' is not a state; {nearest(name, self.names)}")
 
     # -- its solution ------------------------------------------------------------------------------
 

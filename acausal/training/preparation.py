@@ -12,6 +12,7 @@ from acausal._jax import need_double_precision, need_known
 from acausal.data import Data, RecordsLike, Stream, records_of
 from acausal.errors import DataError, TrainingError, need_whole, shown
 from acausal.modeling import names_in
+from acausal.simulation import is_bdf
 from acausal.training.auto.automatic import Automatic, automatic
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.folds import LeftOut, without
@@ -24,8 +25,7 @@ from acausal.training.strategy import Segment, segments, stages
 from acausal.training.streaming import look_at
 
 if TYPE_CHECKING:
-    from acausal.simulation import is_bdf
-from acausal.system import System
+    from acausal.system import System
 
 
 @dataclass(frozen=True, eq=False)
