@@ -16,8 +16,6 @@ from acausal.events.event_iteration import (
     COINCIDE as COINCIDE,
     DOUBTED as DOUBTED,
     FORCED as FORCED,
-    LOOKS as LOOKS,
-    LOOKS_AT_ONCE as LOOKS_AT_ONCE,
     ONE_BY_ONE as ONE_BY_ONE,
     PASSES as PASSES,
     After as After,

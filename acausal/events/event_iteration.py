@@ -33,12 +33,6 @@ FORCED = 500
 ONE_BY_ONE = 1000
 """So often conditions are changed one by one until an event counts as one without a solution."""
 
-LOOKS = 20
-"""So often, at most, rates are looked at; the second half of these looks sees only conditions within their band."""
-
-LOOKS_AT_ONCE = 4
-"""So often all conditions are changed at once that are at zero and do not agree with their rates; then one by one."""
-
 DOUBTED = 100
 """After so many iterations a condition stays as it is where its number is zero but for rounding.
 
@@ -82,15 +76,13 @@ class After(NamedTuple):
 class _Going(NamedTuple):
     """How far an event has come.
 
-    ``forced`` are the values of conditions within their ``band``; ``looked``: whether rates have been looked at, and
-    ``held``: the conditions whose values they give.
+    ``forced`` are the values of conditions within their ``band``; ``looked``: whether it was seen if they switch back.
     """
 
     x: Array
     d: Array
     band: Array
     forced: Array
-    held: Array
     looked: Array
     done: Array
     converged: Array
@@ -98,10 +90,7 @@ class _Going(NamedTuple):
 
 
 Rates = Callable[[Array, Array], tuple[Array, Array]]
-"""The numbers of `guards`, and by how much they grow in no time, for states and discrete variables.
-
-No time is a time so short that two instants so near count as one.
-"""
+"""The numbers of `guards`, and how fast they grow, for states and discrete variables."""
 
 
 def fire(
@@ -119,9 +108,8 @@ def fire(
         events: of the model. at: the values before.
         band: the tolerance band of conditions that change in any case, a number >= 0: within it of zero, they have
             forced values, whatever rounding makes of them. Others have a negative number.
-        rates: how the conditions' numbers grow. Conditions at zero are what their rates say: one that turns back at
-            once, as a ball's height does, has not changed, and of ideal diodes without current and voltage those
-            conduct whose currents will grow.
+        rates: how fast the conditions' numbers grow: one at zero that turns back at once, as a ball's height does, is
+            then found not to have changed.
         forced: the values; None: the opposite of what conditions are.
         keep: whether the passes are.
     """
@@ -130,7 +118,7 @@ def fire(
     if forced is None:
         forced = jnp.where(band >= 0, 1 - at.d[:n], at.d[:n])
     no, yes = jnp.array(False), jnp.array(True)
-    start = _Going(at.x, at.d, band, forced, jnp.zeros(n, bool), no, no, yes, jnp.asarray(0))
+    start = _Going(at.x, at.d, band, forced, no, no, yes, jnp.asarray(0))
     like = Pass(at.x, at.d, at.d) if keep else None
     room = jax.tree.map(lambda a: jnp.zeros((PASSES, *a.shape), a.dtype), like)
 
@@ -171,41 +159,21 @@ def _pass(events: Events, at: Values, rates: Rates | None, going: _Going) -> tup
     A condition that has come true and set what it reads is what its number says from then on.
     """
     before = at._replace(x=going.x, d=going.d)
-
-    n, band = events.n_guards, going.band
-
-    def once(state: tuple[Array, ...]) -> tuple[Array, ...]:
-        forced, held, _, looked, _, _, k = state
-        found, converged = iterate(events, before, jnp.where(held, jnp.inf, band), forced)
-        wrong = jnp.zeros(n, bool)
-        if rates is not None and not events.timed.all():
-            look = partial(
-                _against_rates, events, band, rates, *without_derivatives((going.x, found)), k
-            )
-            looks = (k > 0) | (jnp.all(equal(found, going.d)) & ~looked)
-            held, wrong = lax.cond(looks, look, lambda: (held, wrong))
-            forced = jnp.where(held, jnp.where(wrong, 1 - found[:n], found[:n]), forced)
-            looked = looked | looks
-        return forced, held, found, looked, converged, jnp.any(wrong), k + 1
-
-    def goes_on(state: tuple[Array, ...]) -> Array:
-        *_, wrong, k = state
-        return wrong & (k < LOOKS)
-
-    yes, k = jnp.array(True), jnp.asarray(0)
-    forced, held, found, looked, converged, *_ = lax.while_loop(
-        goes_on, once, (going.forced, going.held, going.d, going.looked, yes, yes, k)
-    )
+    found, converged = iterate(events, before, going.band, going.forced)
     this = Pass(going.x, going.d, found)
     x, d = after_pass(events, at, this)
     done = jnp.all(equal(found, going.d))
+    n, forced, looked, band = events.n_guards, going.forced, going.looked, going.band
     if len(events.resets):
         condition, edge = events.resets.T
         true = (found > 0.5) & (going.d < 0.5)
-        places = jnp.where(true[condition] & true[edge], condition, n)
-        band = band.at[places].set(-jnp.inf, mode="drop")
-    held = held & jnp.all(x == going.x)
-    return _Going(x, d, band, forced, held, looked, done, converged, going.n + 1), this
+        band = band.at[jnp.where(true[condition] & true[edge], condition, n)].set(-1.0, mode="drop")
+    if rates is not None and n:
+        look = partial(_switched, events, band, forced, rates, *without_derivatives((x, found)))
+        forced = lax.cond(done & ~looked, look, lambda: forced)
+        looked = looked | done
+        done = done & jnp.all(forced == going.forced)
+    return _Going(x, d, band, forced, looked, done, converged, going.n + 1), this
 
 
 def iterate(
@@ -264,21 +232,13 @@ def once_more(
     return updated(events, at, before, r, initial)
 
 
-def _against_rates(
-    events: Events, band: Array, rates: Rates, x: Array, d: Array, k: Array
-) -> tuple[Array, Array]:
-    """Conditions at zero, which are what their rates say just behind the event, and those of them that are not yet.
-
-    Two ideal diodes in series change together, others cannot: after some looks, number ``k``, one by one.
-    """
-    n = events.n_guards
-    number, change = lax.stop_gradient(rates(x, d))
-    near = jnp.maximum(band, jnp.where(2 * k < LOOKS, jnp.abs(change), 0.0))
-    known = (change != 0) & jnp.isfinite(change) & ~events.timed & (band > -jnp.inf)
-    held = (jnp.abs(number) <= near) & known
-    wrong = held & ((change > 0) != (d[:n] > 0.5))
-    first = jnp.arange(n) == jnp.argmax(wrong)
-    return held, wrong & (first | (k < LOOKS_AT_ONCE))
+def _switched(
+    events: Events, band: Array, forced: Array, rates: Rates, x: Array, d: Array
+) -> Array:
+    """What conditions within their band are just behind the event: what their rates say."""
+    number, rate = lax.stop_gradient(rates(x, d))
+    at_zero = (jnp.abs(number) <= band) & (rate != 0) & jnp.isfinite(rate) & ~events.timed
+    return jnp.where(at_zero, (rate > 0).astype(forced.dtype), forced)
 
 
 def equal(a: Array, b: Array) -> Array:

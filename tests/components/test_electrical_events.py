@@ -1,10 +1,8 @@
 """Electrical elements with events, against what can be calculated by hand."""
 
-from functools import partial
 from typing import Any
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -60,49 +58,6 @@ def test_a_bridge_rectifies() -> None:
     inside = np.sin(OMEGA * ts) > 1e-9
     assert (np.asarray(found["d1.off"])[inside] == 0).all()
     assert (np.asarray(found["d3.off"])[inside] == 1).all()
-
-
-def three_phases() -> Circuit:
-    """A bridge of six ideal diodes behind three phases with inductances; without current, its diodes are all at 0."""
-    lines, parts, nets = range(3), {}, []
-    for k in lines:
-        parts[f"v{k}"] = el.SineVoltage(V=325, f=50, phase=-2 * np.pi * k / 3)
-        parts[f"l{k}"] = el.Inductor(L=1e-3)
-        parts[f"u{k}"], parts[f"w{k}"] = el.IdealDiode(), el.IdealDiode()
-        nets += [f"v{k}.p l{k}.p", f"l{k}.n u{k}.p w{k}.n"]
-    return Circuit(
-        *nets,
-        " ".join(f"v{k}.n" for k in lines) + " ground.p",
-        " ".join(f"u{k}.n" for k in lines) + " r.p",
-        " ".join(f"w{k}.p" for k in lines) + " r.n",
-        **parts,
-        r=el.Resistor(R=10),
-    )
-
-
-@pytest.mark.slow
-def test_six_diodes_without_current_begin_with_those_whose_currents_grow() -> None:
-    """Up to 4.4 ms all three phases conduct, the second one back: ``1.5 L di/dt + R i = -1.5 v1``."""
-    system, ts = ac.compile(three_phases()), np.linspace(0, 4e-3, 9)
-
-    def voltage(p: dict[str, Any]) -> Any:
-        R, L, lag = p["r.R"], 1.5e-3, jnp.exp(-2j * jnp.pi / 3)
-        steady = -1.5 * p["v1.V"] * lag / (R + 1j * OMEGA * L)
-        waves = steady * jnp.exp(1j * OMEGA * ts) - steady * jnp.exp(-R / L * ts)
-        return R * jnp.imag(waves)
-
-    def found(p: dict[str, Any], **options: Any) -> Any:
-        amplitudes = {f"v{k}.V": p["v1.V"] for k in range(3)}
-        run = ac.simulate(system, (0, 4e-3), saveat=ts, params=p | amplitudes, **options)
-        return run["r.v"]
-
-    tight: dict[str, Any] = {"rtol": 1e-9, "atol": 1e-9}
-    for amplitude in (100.0, 325.0):
-        p = {"r.R": 1.0, "v1.V": amplitude}
-        for options in ({}, {"solver": "stiff"}, tight):
-            np.testing.assert_allclose(found(p, **options), voltage(p), atol=1e-4 * amplitude)
-    last = [jax.grad(lambda p, f=f: f(p)[-1])(p) for f in (partial(found, **tight), voltage)]
-    np.testing.assert_allclose(*([one[name] for name in p] for one in last), rtol=1e-4)
 
 
 @pytest.mark.machines

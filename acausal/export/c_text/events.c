@@ -16,8 +16,8 @@ static void copy(const real *from, real *to, int n) {
 }
 
 /* Discrete variables that agree with all values, from m->x, m->d and those before; 0 if there are none.
-   Conditions whose time comes with the event are what they are just behind it, those within m->e.band of zero, or in
-   m->e.held, become what m->e.forced says. At first all that disagree change at once, later
+   Conditions whose time comes with the event are what they are just behind it, those within m->e.band of zero become
+   what m->e.forced says. At first all that disagree change at once, later
    the first of them alone, and what is zero but for rounding stays. */
 static int iterate(Model *m, const real t, const real *u, const real initial) {
     for (int k = 0; k < ALL_AT_ONCE + ONE_BY_ONE; k++) {
@@ -31,7 +31,7 @@ static int iterate(Model *m, const real t, const real *u, const real initial) {
             const real g = timed[i] ? m->e.holds[i] : m->e.number[i];
             int holds = strict[i] ? g > 0 : g >= 0;
             if (fabs(g) <= rounding) holds = m->d[i] > R(0.5);
-            if (k < FORCED && (m->e.held[i] || fabs(g) <= m->e.band[i])) holds = m->e.forced[i];
+            if (k < FORCED && fabs(g) <= m->e.band[i]) holds = m->e.forced[i];
             if (ticks[i] && initial > 0) holds = 0;
             m->e.holds[i] = (real)holds;
             if (m->e.holds[i] != m->d[i]) {
@@ -47,21 +47,17 @@ static int iterate(Model *m, const real t, const real *u, const real initial) {
     return 0;
 }
 
-/* Conditions at zero are held: they become what their rates say just behind the event; 0 if they are. */
-static int switched(Model *m, const real t, const real *u, const real *along_u, const real no_time, const int look) {
+/* A condition at zero becomes what its rate says; 0 if that was known. */
+static int switched(Model *m, const real t, const real *u, const real *along_u) {
     int changed = 0;
     rates(m, t, m->x, u, m->e.dx_begin);
     conditions(m, t, m->x, u, m->x, m->d, m->e.number);
     condition_rates(m, t, m->x, u, m->e.dx_begin, along_u, m->e.rate);
     for (int i = 0; i < GUARDS; i++) {
-        const real change = no_time * m->e.rate[i], band = m->e.band[i];
-        const real near = 2 * look < LOOKS && fabs(change) > band ? fabs(change) : band;
-        const int known = !timed[i] && isfinite(change) && change != 0 && band > -INFINITY;
-        m->e.held[i] = known && fabs(m->e.number[i]) <= near;
-        if (!m->e.held[i]) continue;
-        const int holds = m->d[i] > R(0.5), wrong = holds != (change > 0) && (look < LOOKS_AT_ONCE || !changed);
-        m->e.forced[i] = wrong ? !holds : holds;
-        changed |= wrong;
+        const real rate = m->e.rate[i];
+        if (timed[i] || !(fabs(m->e.number[i]) <= m->e.band[i]) || !isfinite(rate) || rate == 0) continue;
+        if (m->e.forced[i] != (rate > 0)) changed = 1;
+        m->e.forced[i] = rate > 0;
     }
     return changed;
 }
@@ -71,27 +67,22 @@ static int came_true(const Model *m, const int place) {
 }
 
 /* An event at m->x, m->d: all is found anew until nothing changes. Without along_u rates are not looked at. */
-static Status fire(Model *m, const real t, const real *u, const real *along_u, const real no_time) {
+static Status fire(Model *m, const real t, const real *u, const real *along_u) {
     int looked = !along_u;
-    for (int i = 0; i < GUARDS; i++) m->e.held[i] = 0;
     for (int pass = 0; pass < PASSES; pass++) {
         copy(m->x, m->e.x_before, STATES);
         copy(m->d, m->e.d_before, DISCRETE);
         if (!iterate(m, t, u, 0)) return STATUS_EVENT_ITERATION;
-        if (!looked && equal(m->d, m->e.d_before, DISCRETE)) {
-            looked = 1;
-            for (int look = 0; look < LOOKS && switched(m, t, u, along_u, no_time, look); look++) {
-                copy(m->e.d_before, m->d, DISCRETE);
-                if (!iterate(m, t, u, 0)) return STATUS_EVENT_ITERATION;
-            }
-        }
+        int done = equal(m->d, m->e.d_before, DISCRETE);
         jumped(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.next_x);
         copy(m->e.next_x, m->x, STATES);
         for (int i = 0; i < RESETS; i++) /* it has set what it reads: its number counts from now on */
-            if (came_true(m, resets[i][0]) && came_true(m, resets[i][1])) m->e.band[resets[i][0]] = -INFINITY;
-        if (equal(m->d, m->e.d_before, DISCRETE)) return STATUS_OK;
-        if (!equal(m->x, m->e.x_before, STATES))
-            for (int i = 0; i < GUARDS; i++) m->e.held[i] = 0;
+            if (came_true(m, resets[i][0]) && came_true(m, resets[i][1])) m->e.band[resets[i][0]] = -1;
+        if (done && !looked) {
+            looked = 1;
+            done = !switched(m, t, u, along_u);
+        }
+        if (done) return STATUS_OK;
     }
     return STATUS_EVENT_ITERATION;
 }
@@ -229,8 +220,7 @@ static Status end_with_event(Model *m, const real *u, const real *along_u, const
     copy(m->e.x_end, m->x, STATES);
     copy(m->d, m->e.d_last, DISCRETE);
     for (int i = 0; i < GUARDS; i++) m->e.touched[i] = m->e.band[i];
-    const real most = fabs(m->time) > span ? fabs(m->time) : span;
-    const Status status = fire(m, m->time, u, along_u, COINCIDE * most);
+    const Status status = fire(m, m->time, u, along_u);
     if (status) return status;
     /* an event that rounding has made changes nothing: the number must go farther next time */
     const int moved = !searched || !equal(m->d, m->e.d_last, DISCRETE) || !equal(m->x, m->e.x_end, STATES);
@@ -314,7 +304,7 @@ Status model_begin(Model *m) {
     copy(m->d, m->e.d_before, DISCRETE);
     if (!iterate(m, m->time, m->u, 1)) return STATUS_EVENT_ITERATION;
     force(m, m->time, m->u, COINCIDE * fabs(m->time));
-    return fire(m, m->time, m->u, NULL, 0);
+    return fire(m, m->time, m->u, NULL);
 }
 
 Status model_event(Model *m) {
@@ -329,7 +319,7 @@ Status model_event(Model *m) {
         m->e.usual[i] = 0;
     }
     for (int i = 0; i < INPUTS; i++) m->e.along_u[i] = 0;
-    return fire(m, m->time, m->u, m->e.along_u, COINCIDE * fabs(m->time));
+    return fire(m, m->time, m->u, m->e.along_u);
 }
 
 Status model_conditions(Model *m) {

@@ -11,7 +11,7 @@ typedef struct {
     model_real band[MODEL_CONDITIONS + 1], touched[MODEL_CONDITIONS + 1], deadband[MODEL_CONDITIONS + 1],
         usual[MODEL_CONDITIONS + 1];
     model_real scale[MODEL_CONDITIONS + 1], over[MODEL_CONDITIONS + 1], holds[MODEL_CONDITIONS + 1];
-    int later[MODEL_CONDITIONS + 1], forced[MODEL_CONDITIONS + 1], held[MODEL_CONDITIONS + 1], chattering;
+    int later[MODEL_CONDITIONS + 1], forced[MODEL_CONDITIONS + 1], chattering;
     model_real last_event, d_before[MODEL_DISCRETE], d_last[MODEL_DISCRETE], next_d[MODEL_DISCRETE];
     model_real x_before[MODEL_STATES + 1], next_x[MODEL_STATES + 1], x_end[MODEL_STATES + 1],
         dx_begin[MODEL_STATES + 1], dx_end[MODEL_STATES + 1];

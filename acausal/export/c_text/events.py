@@ -17,8 +17,6 @@ from acausal.events import (
     COINCIDE,
     DOUBTED,
     FORCED,
-    LOOKS,
-    LOOKS_AT_ONCE,
     ONE_BY_ONE,
     PASSES,
     TRIES,
@@ -82,8 +80,6 @@ def constants() -> Iterator[str]:
         "ALL_AT_ONCE": ALL_AT_ONCE,
         "DOUBTED": DOUBTED,
         "FORCED": FORCED,
-        "LOOKS": LOOKS,
-        "LOOKS_AT_ONCE": LOOKS_AT_ONCE,
         "ONE_BY_ONE": ONE_BY_ONE,
     }
     yield from (f"#define {name} R({value!r})" for name, value in reals.items())

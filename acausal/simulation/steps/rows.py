@@ -12,7 +12,7 @@ from jaxtyping import Array, Float, Int
 
 from acausal._jax import without_derivatives
 from acausal.codegen import Values
-from acausal.events import COINCIDE, Rates, guards, guards_and_rates
+from acausal.events import Rates, guards, guards_and_rates
 from acausal.simulation.steps.problem import Integration
 
 FREE, STOP, BEND, EDGE, RESTART, JUMP, TIMED, STATE = range(8)
@@ -172,19 +172,18 @@ def values_at(problem: Integration, t: Array, x: Array, d: Array) -> Values:
 
 
 def rates_at(problem: Integration, t: Array) -> Rates:
-    """The conditions' numbers at a time, and by how much they grow in no time, for states and discrete variables.
+    """The conditions' numbers at a time, and how fast they grow, for states and discrete variables.
 
     Without derivatives.
     """
     problem, t = without_derivatives((problem, t))
     events = problem.watched
-    no_time = COINCIDE * jnp.maximum(jnp.abs(t), problem.end - problem.begin)
 
     def rates(x: Array, d: Array) -> tuple[Array, Array]:
         field = problem.held(d).field
         both = lambda t, x: guards_and_rates(events, field.at(t).values(x))  # noqa: E731
         (number, rate), change = jax.linearize(both, t, x)
-        return number, no_time * change(jnp.ones_like(t), rate)[0]
+        return number, change(jnp.ones_like(t), rate)[0]
 
     return rates
 
