@@ -678,7 +678,10 @@ GALLERY: dict[str, Wrong] = {
     "sympy's derivative": (
         lambda: own(lambda s: [ac.Eq(sp.Derivative(s.x, ac.time), 1)]),
         ac.DeclarationError,
-        ("Equations: ", "cannot be computed; a derivative in time is ac.der(...)"),
+        (
+            "Equations, line ",
+            "variables do not depend on time; a derivative in time is ac.der(...)",
+        ),
     ),
     # -- declarations ----------------------------------------------------------------------------------
     "a condition on nothing": (

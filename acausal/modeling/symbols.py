@@ -46,7 +46,7 @@ class TimeSymbol(sp.Symbol):
         symbols = expression.free_symbols if isinstance(expression, sp.Basic) else ()
         if frame is not None and _package(frame) != "acausal" and any(map(_varies, symbols)):
             raise DeclarationError(
-                "diff(time) takes variables for constants, so that it is zero; a derivative in time is ac.der(...)"
+                "to sympy, variables do not depend on time; a derivative in time is ac.der(...)"
             )
         return True
 

@@ -110,22 +110,28 @@ def inputs_that_are_set(model: FlatModel, surplus: Sequence[tuple[Origin, int]])
 
 
 def _from_outside(system: Equations, equations: Sequence[int]) -> list[tuple[Origin, int]]:
-    """The equations of other components, such as the one above, that name an input that these equations read."""
+    """The equations of other components, such as the one above, that set an input that these equations read.
+
+    They have no unknowns but such inputs and what is read.
+    """
     model, aliases = system.model, system.aliases
     read = {v for e in equations for v in system.variables[e]}
-    inputs: list[int] = []
-    for v in model.inputs.tolist():
-        node = aliases.representative[v]
+
+    def is_read(v: int) -> bool:
+        node = int(aliases.representative[v])
         while node >= 0 and node not in read:
-            node = aliases.derivative[node]
-        inputs += [v] if node >= 0 else []
+            node = int(aliases.derivative[node])
+        return node >= 0
+
+    inputs = [v for v in model.inputs.tolist() if is_read(v)]
     own = {v: model.layout.variable(v).rpartition(".")[0] for v in inputs}
     found: dict[tuple[Origin, int], None] = {}
     for group in model.groups if inputs else ():
         for row, column in np.argwhere(np.isin(group.variables, inputs)).tolist():
-            component = int(group.components[row])
+            component, others = int(group.components[row]), group.variables[row].tolist()
             path = own[int(group.variables[row, column])]
-            if component >= 0 and model.layout.paths[component] != path:
+            outside = component >= 0 and model.layout.paths[component] != path
+            if outside and all(map(is_read, others)):
                 found[group.origins[row], component] = None
     return list(found)
 

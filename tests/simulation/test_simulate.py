@@ -603,7 +603,7 @@ def test_points_further_apart_than_a_period_are_warned_of(source: ac.Component) 
 @pytest.mark.parametrize(
     ("law", "told"),
     [
-        (ac.sign, r"There 'der\(x\)' = 0\.3 - sign\(x\) jumps from -0\.7 to 1\.3: the model slides"),
+        (ac.sign, r"There 'der\(x\)' = 0\.3 - sign\(x\) jumps from -0\.7 to 1\.3\. If the model slides"),
         (lambda x: ac.where(x > 0, 1, -1), r"There 'der\(x\)' = 0\.3 - where\(x > 0, 1, -1\) jumps"),
         (lambda x: ac.tanh(1e9 * x), "Perhaps it is stiff"),
     ],

@@ -183,8 +183,8 @@ def _stopped(
     slides = "" if found.log is None else f"It has had {int(found.log.total)} events{last}. "
     if jump := run.explain_jump(at, ahead):
         return StepLimitError(
-            f"{where}, after max_steps={max_steps}. {slides}There {jump}: the model slides along this jump. "
-            "Give it a hysteresis, or a smooth transition."
+            f"{where}, after max_steps={max_steps}. {slides}There {jump}. If the model slides along this jump, "
+            "give it a hysteresis, or a smooth transition; else raise max_steps, or loosen rtol."
         )
     hint = "it is stiff (choose solver='auto' or 'stiff'), " if explicit else ""
     return StepLimitError(
