@@ -187,13 +187,23 @@ class System(LeavesCaches):
 
     @cached_property
     def held_inputs(self) -> frozenset[str]:
-        """Names of inputs that are held from sample to sample: truth values, whole numbers, modes, or so declared."""
+        """Names of inputs that are held from sample to sample.
+
+        Truth values, whole numbers, modes, or so declared; and what a discrete variable follows by an equation.
+        """
         declared = map(self.flat.layout.variable_declaration, self.flat.inputs.tolist())
         pairs = zip(self.flat.inputs.tolist(), declared, strict=True)
         held = [
             v for v, d in pairs if isinstance(d, Discrete) or (isinstance(d, Input) and d.is_held)
         ]
-        return frozenset(map(self.flat.layout.variable, held))
+        return self.followed_inputs | frozenset(map(self.flat.layout.variable, held))
+
+    @cached_property
+    def followed_inputs(self) -> frozenset[str]:
+        """Names of inputs that a discrete variable follows by an equation, not at an instant that a condition gives."""
+        nodes = self.reduced.aliases.representative[self.flat.inputs]
+        followed = self.flat.inputs[np.isin(nodes, self.reduced.followed)]
+        return frozenset(map(self.flat.layout.variable, followed.tolist()))
 
     @property
     def input_defaults(self) -> Mapping[str, float]:

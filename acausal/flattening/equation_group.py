@@ -80,11 +80,13 @@ class UpdateGroup:
     Attributes:
         group: the template and its instances. targets: (n,) the variables.
         previous: for every slot of a variable whether it takes the value before an event.
+        always: whether it must hold between events, too.
     """
 
     group: EquationGroup
     targets: Integers
     previous: tuple[bool, ...]
+    always: bool
 
     def as_equation(self, name: str) -> EquationGroup:
         """The equation ``new name - value = 0``, the target as its first variable."""

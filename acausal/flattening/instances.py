@@ -99,7 +99,7 @@ def _update(
     filled = templates.of(templates.shape(owner, stated.value, stated.text))
     group = _fill(templates, filled, Origin(stated.text, owner), members)
     targets = _targets(templates.layout, owner, stated.target, members)
-    return UpdateGroup(group, targets, filled.previous)
+    return UpdateGroup(group, targets, filled.previous, stated.always)
 
 
 def _targets(layout: Layout, owner: Component, target: Reference, members: Integers) -> Integers:

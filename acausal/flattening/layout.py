@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar, cast
@@ -13,7 +13,7 @@ import numpy as np
 from acausal.errors import DeclarationError, nearest
 from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.reading import equations_of, read_statements
-from acausal.flattening.silent import silent_parameters
+from acausal.flattening.silent import deciding, silent_parameters
 from acausal.flattening.stated import Stated, asks_for_events, with_events
 from acausal.flattening.template import Integers
 from acausal.modeling import (
@@ -23,9 +23,11 @@ from acausal.modeling import (
     Module,
     Option,
     Parameter,
+    Reference,
     Variable,
     charge,
     element_names,
+    owner_and_name,
 )
 
 Numbers = np.ndarray[Any, np.dtype[np.float64]]
@@ -192,7 +194,8 @@ def lay_out(model: Component, *, watch: bool = False) -> tuple[Layout, tuple[Sta
         form = forms[known[key]]
         charge("elements", len(form.variables) + len(form.parameters), component._node)
 
-    forms, statements = _with_statements(forms, watch)
+    nodes = {id(c._node): int(number[id(c)]) for c in components}
+    forms, statements = _with_statements(forms, nodes, _connected_signals(components, nodes), watch)
 
     def base(sizes: list[int]) -> Integers:
         return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64)[form_of])])
@@ -209,19 +212,48 @@ def lay_out(model: Component, *, watch: bool = False) -> tuple[Layout, tuple[Sta
     return layout, statements
 
 
-def _with_statements(forms: list[Form], watch: bool) -> tuple[list[Form], tuple[Stated, ...]]:
-    """The forms with the hidden variables of their events, and what they state."""
+def _connected_signals(
+    components: Sequence[Component], form: Mapping[int, int]
+) -> Iterator[tuple[Hashable, Hashable]]:
+    """Pairs of signals that are connected, each by the form of its owner and its name there."""
+    for component in components:
+        for ends in component._node.connections:
+            if not isinstance(ends[0], Connector):
+                (a, first), (b, second) = map(owner_and_name, ends)
+                yield (form.get(id(a)), first), (form.get(id(b)), second)
+
+
+def _with_statements(
+    forms: list[Form],
+    form: Mapping[int, int],
+    connected: Iterable[tuple[Hashable, Hashable]],
+    watch: bool,
+) -> tuple[list[Form], tuple[Stated, ...]]:
+    """The forms with the hidden variables of their events, and what they state.
+
+    Arguments:
+        form: the number of the form of each component, by the identity of its node. connected: signals.
+    """
+
+    def variable(symbol: Any) -> Hashable:
+        is_own = isinstance(symbol, Reference) and id(symbol.owner) in form
+        return (form[id(symbol.owner)], symbol.path) if is_own else symbol
+
     read = [read_statements(f.prototype, lambda p=f.prototype: equations_of(p), 1) for f in forms]
     pairs = list(zip(forms, read, strict=True))
     watched = watch or any(
         asks_for_events((v for _, v in form.variables), stated) for form, stated in pairs
     )
-    silent = [silent_parameters(f.prototype, stated, with_events=watched) for f, stated in pairs]
+    every = itertools.chain.from_iterable(read)
+    decide = deciding(every, variable, connected) if watched else set[int]()
+    silent = [
+        silent_parameters(f.prototype, stated, decide, with_events=watched) for f, stated in pairs
+    ]
     if not watched:
         found = zip(read, silent, strict=True)
         return forms, tuple(Stated(tuple(stated), silent=some) for stated, some in found)
     statements = [
-        replace(with_events(form.prototype, stated), silent=some)
+        replace(with_events(form.prototype, stated, decide), silent=some)
         for (form, stated), some in zip(pairs, silent, strict=True)
     ]
     extended = [

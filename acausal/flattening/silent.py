@@ -6,7 +6,7 @@ Conditions whose times are known ahead are none of these: steps end there, and t
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,14 +15,11 @@ from sympy.core.relational import Relational
 
 from acausal.flattening.reading import read_statements
 from acausal.modeling import (
-    INITIAL,
     Component,
     Discrete,
     Eq,
     Floored,
-    ModuleCall,
     Parameter,
-    Previous,
     Reference,
     Tick,
     Variable,
@@ -78,15 +75,14 @@ class Silent:
 
 
 def silent_parameters(
-    component: Component, stated: Sequence[Any], *, with_events: bool
+    component: Component, stated: Sequence[Any], watched: Collection[int], *, with_events: bool
 ) -> tuple[Silent, ...]:
     """What derivatives do not see: conditions of a component at which values jump; parameters that act by them alone.
 
     Arguments:
-        component: whose equations are looked at. stated: all that it states.
+        component: whose equations are looked at. stated: all that it states. watched: see `deciding`.
         with_events: whether the model has events, so that conditions with ``events=None`` are watched.
     """
-    watched = deciding(stated) if with_events else ()
     literals = [one for one in stated if _is_literal(one) and id(one) not in watched]
     sides = [s for one in literals for s in (one.lhs, one.rhs)]
     cased = [number_or_truth(s) for s in sides if s.has(sp.Piecewise, Watched)]
@@ -128,25 +124,46 @@ def discrete_side(equation: Eq) -> Reference | None:
     return None
 
 
-def deciding(stated: Sequence[Any]) -> set[int]:
-    """The equations, by identity, of variables that conditions of events, and discrete variables, follow from."""
-    wanted: set[Any] = set()
-    rest: list[Eq] = []
+def deciding(
+    stated: Iterable[Any],
+    key: Callable[[Any], Hashable] = lambda symbol: symbol,
+    joined: Iterable[tuple[Hashable, Hashable]] = (),
+) -> set[int]:
+    """The equations, by identity, of variables that conditions of events, and discrete variables, follow from.
+
+    Arguments:
+        stated: equations and `When`, of one component or of several.
+        key: by which symbols of several components are the same variable. joined: keys of connected signals.
+    """
+    given: dict[Hashable, list[Eq]] = {}
+    left: list[Any] = []
     for one in stated:
         if isinstance(one, When):
-            wanted |= {s for link in one.chain() for c in link.conditions for s in c.free_symbols}
+            left += [s for link in one.chain() for c in link.conditions for s in c.free_symbols]
         elif isinstance(one, Eq):
             sides = [number_or_truth(s) for s in (one.lhs, one.rhs)]
             if discrete_side(one) is None:
-                rest.append(one)
+                for side in sides:
+                    given.setdefault(key(side), []).append(one)
                 sides = [w.args[0] for s in sides for w in s.atoms(Watched)]
-            wanted |= {symbol for side in sides for symbol in side.free_symbols}
-    found: set[int] = set()
-    while more := [e for e in rest if id(e) not in found and wanted & {e.lhs, e.rhs}]:
-        found |= {id(e) for e in more}
-        sides = [number_or_truth(s) for e in more for s in (e.lhs, e.rhs)]
-        wanted |= {symbol for side in sides for symbol in side.free_symbols}
-    return found
+            left += [symbol for side in sides for symbol in side.free_symbols]
+    same: dict[Hashable, list[Hashable]] = {}
+    for a, b in joined:
+        same.setdefault(a, []).append(b)
+        same.setdefault(b, []).append(a)
+    found: dict[int, Eq] = {}
+    wanted, keys = set[Hashable](), [key(symbol) for symbol in left]
+    while keys:
+        if (name := keys.pop()) in wanted:
+            continue
+        wanted.add(name)
+        keys += same.get(name, ())
+        for equation in given.get(name, ()):
+            if id(equation) not in found:
+                found[id(equation)] = equation
+                sides = (number_or_truth(s) for s in (equation.lhs, equation.rhs))
+                keys += [key(symbol) for side in sides for symbol in side.free_symbols]
+    return set(found)
 
 
 def _cases(sides: Sequence[Any], with_events: bool) -> Iterator[tuple[bool, Any, Any, Any]]:
@@ -185,9 +202,9 @@ def _changes(relation: Any) -> bool:
 
 
 def has_jumps(side: Any) -> bool:
-    """Whether a case distinction of an expression jumps, at times that are not known ahead and no events yet."""
+    """Whether a case distinction of an expression jumps between events."""
     return any(map(is_continuous, side.atoms(sp.floor, sp.ceiling, sp.sign))) or any(
-        _changes(relation) and _jumps(relation, value - otherwise)
+        is_continuous(relation) and _jumps(relation, value - otherwise)
         for _, condition, value, otherwise in _cases([side], with_events=True)
         for relation in condition.atoms(Relational)
     )
@@ -222,36 +239,6 @@ def in_steps(expression: Any) -> Any:
         return isinstance(part, sp.sign | sp.ceiling | sp.floor) and is_continuous(part)
 
     return expression.replace(can_jump, steps)
-
-
-def changing(value: Any, stated: Sequence[Any]) -> Any:
-    """A symbol by which the value of a discrete variable's equation changes between events, too; None: none is known.
-
-    Known are time, states of the same component, and what its equations give explicitly by these. What asks for values
-    before an event, for a tick or the start, or computes by itself, as a network does, is taken to know what it does.
-    """
-    sides = [(one.lhs, one.rhs) for one in stated if _is_literal(one)]
-    states = {
-        d.args[0] for pair in sides for s in pair if isinstance(s, sp.Basic) for d in s.atoms(der)
-    }
-    seen, left = set[Any](), [value]
-    while left:
-        quiet = left.pop()
-        if quiet.has(ModuleCall, Previous, Tick, INITIAL):
-            continue
-        quiet = literal(in_steps(quiet).replace(Floored, lambda *_: sp.S.Zero))
-        for symbol in sorted(_acting(quiet, with_events=False).free_symbols - seen, key=str):
-            if symbol == time or symbol in states:
-                return symbol
-            seen.add(symbol)
-            if not isinstance(getattr(symbol, "declaration", None), Discrete):
-                left += [
-                    number_or_truth(b)
-                    for pair in sides
-                    for a, b in (pair, pair[::-1])
-                    if a == symbol
-                ]
-    return None
 
 
 def _jumps(relation: Any, difference: Any) -> bool:

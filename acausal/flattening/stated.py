@@ -5,7 +5,7 @@ Conditions that are watched become hidden discrete variables, 1 or 0; between ev
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any
@@ -17,8 +17,6 @@ from acausal.errors import DeclarationError
 from acausal.flattening.origin import HIDDEN
 from acausal.flattening.silent import (
     Silent,
-    changing,
-    deciding,
     discrete_side,
     has_jumps,
     in_steps,
@@ -32,6 +30,7 @@ from acausal.modeling import (
     Discrete,
     Eq,
     Floored,
+    ModuleCall,
     Previous,
     Reference,
     Reinit,
@@ -53,11 +52,17 @@ ROUNDING = sp.Float(1e-9)
 
 @dataclass(frozen=True)
 class UpdateStatement:
-    """``target = value`` at every event; of a state, what it jumps to. ``text`` says so in messages."""
+    """``target = value`` at every event; of a state, what it jumps to.
+
+    Attributes:
+        text: says so in messages.
+        always: whether it is an equation that must hold between events, too: nothing in it belongs to an instant.
+    """
 
     target: Reference
     value: sp.Expr
     text: str
+    always: bool = False
 
 
 @dataclass(frozen=True)
@@ -68,8 +73,8 @@ class GuardStatement(UpdateStatement):
         ticks: whether it is a clock's: not true while initial values are found.
     """
 
-    strict: bool
-    ticks: bool = False
+    strict: bool = field(kw_only=True)
+    ticks: bool = field(default=False, kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -115,18 +120,22 @@ def without_events(equation: Eq) -> Eq:
     return Eq(*sides).stated_in(equation.place)
 
 
-def with_events(component: Component, stated: Sequence[Any]) -> Stated:
+def with_events(component: Component, stated: Sequence[Any], decide: Collection[int]) -> Stated:
     """Sort what a component states, and watch its conditions.
+
+    Arguments:
+        decide: equations by identity, in which values that jump are events, see `deciding`.
 
     Raises:
         DeclarationError: for a discrete variable that is not given explicitly, or twice.
     """
-    return _Sorting(component).sorted(stated)
+    return _Sorting(component, decide).sorted(stated)
 
 
 @dataclass
 class _Sorting:
     component: Component
+    decide: Collection[int]
     guards: list[GuardStatement] = field(default_factory=list[GuardStatement])
     updates: dict[Reference, UpdateStatement] = field(
         default_factory=dict[Reference, UpdateStatement]
@@ -141,23 +150,17 @@ class _Sorting:
         """All of it, each where it belongs."""
         equations: list[Eq] = []
         whens = [one for one in stated if isinstance(one, When)]
-        decide = deciding(stated)
         for one in stated:
             if isinstance(one, When):
                 continue  # after all others, whose comparisons it may repeat
             if not isinstance(one, Eq):
                 equations.append(one)  # refused where templates are made
             elif (target := discrete_side(one)) is not None:
-                value = one.rhs if target is one.lhs else one.lhs
-                if (by := changing(number_or_truth(value), stated)) is not None:
-                    raise DeclarationError(
-                        f"{self.component._node.label}: the discrete variable '{target.path}' changes at events alone, "
-                        f"but by {_written(one, target)} it would follow '{by}' between them, too; declare it as "
-                        "ac.Variable, or give it in ac.When(...), such as ac.When(ac.sample(0, period), ...)"
-                    )
-                self._update(target, self._watched(number_or_truth(value)), _written(one, target))
+                value = number_or_truth(one.rhs if target is one.lhs else one.lhs)
+                always = not value.has(ModuleCall, Previous, Tick, INITIAL)
+                self._update(target, self._watched(value), _written(one, target), always=always)
             else:
-                equations.append(self._continuous(one, decides=id(one) in decide))
+                equations.append(self._continuous(one))
         for one in whens:
             self._when(one)
         return Stated(
@@ -170,9 +173,9 @@ class _Sorting:
 
     # -- equations ---------------------------------------------------------------------------------
 
-    def _continuous(self, equation: Eq, *, decides: bool) -> Eq:
+    def _continuous(self, equation: Eq) -> Eq:
         sides = [number_or_truth(s) for s in (equation.lhs, equation.rhs)]
-        if decides:
+        if id(equation) in self.decide:
             sides = [self._watched(s) if has_jumps(s) else s for s in sides]
         if any(s.has(Watched, Floored, Previous, Tick) for s in sides):
             sides = [self._held(self._cases(side)) for side in sides]
@@ -193,14 +196,16 @@ class _Sorting:
             self.updates[reference] = UpdateStatement(reference, value, text)
         return self.known[key]
 
-    def _update(self, target: Reference, value: sp.Expr, text: str) -> None:
+    def _update(
+        self, target: Reference, value: sp.Expr, text: str, *, always: bool = False
+    ) -> None:
         if target in self.updates:
             raise DeclarationError(
                 f"{self.component._node.label}: two equations give the discrete variable '{target.path}': "
                 f"{self.updates[target].text}, and {text}; join them: When(..., otherwise=When(...)), in Modelica "
                 "when and elsewhen"
             )
-        self.updates[target] = UpdateStatement(target, value, text)
+        self.updates[target] = UpdateStatement(target, value, text, always)
 
     # -- when --------------------------------------------------------------------------------------
 
@@ -307,7 +312,9 @@ class _Sorting:
             value: Any = lhs - rhs if above else rhs - lhs
             strict = isinstance(relation, sp.Gt | sp.Lt)
             target = self.known[relation] = self._new("bool", relation)
-            self.guards.append(GuardStatement(target, self._ticking(value), str(relation), strict))
+            self.guards.append(
+                GuardStatement(target, self._ticking(value), str(relation), strict=strict)
+            )
         return self.known[relation]
 
     def _compared(self, expression: Any) -> Any:
@@ -336,7 +343,9 @@ class _Sorting:
             ends = 2 * sp.floor((before + 1) / 2), 2 * sp.floor(before / 2) + 1
             passed = [(end, self._new("bool")) for end in ends]
             for end, r in passed:
-                self.guards.append(GuardStatement(r, number - end, f"floor({number})", False))
+                self.guards.append(
+                    GuardStatement(r, number - end, f"floor({number})", strict=False)
+                )
             up = sp.Or(*(sp.And(sp.Gt(e, before), sp.Gt(r, HALF)) for e, r in passed))
             down = sp.Or(*(sp.And(sp.Le(e, before), sp.Le(r, HALF)) for e, r in passed))
             value = sp.Piecewise(
@@ -361,7 +370,7 @@ class _Sorting:
             r, count = self._new("bool"), self._new("int")
             now = self.known[tick] = self._new("bool")
             due = time - (tick.start + Previous(count) * tick.period)
-            self.guards.append(GuardStatement(r, due, str(tick), False, ticks=True))
+            self.guards.append(GuardStatement(r, due, str(tick), strict=False, ticks=True))
             just = sp.And(sp.Gt(r, HALF), sp.Le(Previous(r), HALF))
             passed = sp.Max(0, sp.ceiling((time - tick.start) / tick.period - ROUNDING))
             if (

@@ -79,6 +79,10 @@ class Sum(LeavesCaches):
         """A sum contains no `Prescribed` signal."""
         return False
 
+    def depends_on_time(self) -> bool:
+        """A sum does not."""
+        return False
+
     def with_signals(self) -> tuple[Sum, tuple[int, ...]]:
         """The sum as it is; see `Template.with_signals`."""
         return self, tuple(range(len(self.factors)))

@@ -126,6 +126,11 @@ class Template(LeavesCaches):
         return bool(self.residual.has(Prescribed))
 
     @cache
+    def depends_on_time(self) -> bool:
+        """Whether time itself occurs in the equation."""
+        return time in self.residual.free_symbols
+
+    @cache
     def with_signals(self) -> tuple[Template, tuple[int, ...]]:
         """The equation with signals in the place of `Prescribed`, once all differentiation is done.
 

@@ -146,6 +146,11 @@ def functions_of_time(
             function = given.signal(source, kind)
         else:
             function = _function(source, given[source], ends, kind, span[0])
+        if source in system.followed_inputs and not _changes_at_instants(function):
+            raise DataError(
+                f"A discrete variable follows input '{source}', which must then change at known instants alone: give a "
+                "number, or samples that are held, as ac.Signal(times, values, 'previous')."
+            )
         functions[source] = _reaching(source, function, span)
     return tuple(_derived(name, source, functions[source]) for name, source in sources.items())
 
@@ -177,6 +182,12 @@ def announce_inputs(system: System, given: Mapping[str, Any] | Data) -> None:
             f"interpolation, noise included. If it was measured, give 'der({name})', too.",
             stacklevel=user_level(),
         )
+
+
+def _changes_at_instants(function: TimeFunction) -> bool:
+    return isinstance(function, Constant) or (
+        isinstance(function, Signal) and function.interpolation == "previous"
+    )
 
 
 def _sources(system: System, given: Mapping[str, Any] | Data) -> dict[str, str]:

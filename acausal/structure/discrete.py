@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
 from acausal.errors import StructureError, listing
 from acausal.flattening import FlatModel, Integers
+from acausal.modeling import time
 from acausal.structure.aliases import AliasFree
 
 
@@ -69,3 +72,39 @@ def check_jumps(model: FlatModel, aliases: AliasFree, states: set[int]) -> None:
             if node in jumping:
                 raise StructureError(f"two Reinit of '{name}' in different When(...); join them")
             jumping.add(node)
+
+
+def followed(
+    model: FlatModel, aliases: AliasFree, reads: Callable[[int], Sequence[int | str]]
+) -> set[int]:
+    """The nodes that discrete variables follow by equations that must hold between events, too.
+
+    Arguments:
+        reads: of a node, the nodes that it is computed from; or the name of what changes between events.
+
+    Raises:
+        StructureError: where there is such a name.
+    """
+    found = set[int]()
+    discrete = set(aliases.representative[model.discrete].tolist())
+    for update in model.events.updates:
+        if not update.always:
+            continue
+        nodes = aliases.representative[update.group.variables]
+        asks = [str(time)] if update.group.template.depends_on_time() else []
+        for row in range(len(nodes)):
+            left: list[int | str] = [*nodes[row].tolist(), *asks]
+            while left:
+                if isinstance(node := left.pop(), str):
+                    name = model.layout.variable(int(update.targets[row]))
+                    origin = update.group.origins[row]
+                    raise StructureError(
+                        f"the discrete variable '{name}' changes at events alone, but by "
+                        f"{model.stated_at(int(update.group.components[row]), origin)} it would follow '{node}' "
+                        "between them, too; declare it as ac.Variable, or give it in ac.When(...), such as "
+                        "ac.When(ac.sample(0, period), ...)"
+                    )
+                if node not in discrete and node not in found:
+                    found.add(node)
+                    left += reads(node)
+    return found

@@ -5,6 +5,7 @@ The result lists the states, and in which order and from which equations all oth
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -12,11 +13,12 @@ import numpy as np
 
 from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers, LeavesCaches
+from acausal.modeling import time
 from acausal.structure import graph
 from acausal.structure.algebraic_loops import TornLoop
 from acausal.structure.aliases import AliasFree, eliminate_aliases
 from acausal.structure.blocks import SolvingStep, order_steps
-from acausal.structure.discrete import check_jumps
+from acausal.structure.discrete import check_jumps, followed
 from acausal.structure.equations import Equations
 from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.singularity import explain_singularity
@@ -39,6 +41,7 @@ class ReducedModel(LeavesCaches):
         input_orders: for every input, the one that it is a derivative of, and how often it is differentiated.
         input_signs: for every input the sign of its node.
         discrete: nodes of what changes at events only; first those of watched conditions.
+        followed: nodes of the inputs that discrete variables follow by equations.
         base: (n_nodes,) of a derivative without a name of its own: the node it differentiates, else -1.
         derivative, derivative_sign: as in `AliasFree`, extended.
         steps: in solving order.
@@ -54,6 +57,7 @@ class ReducedModel(LeavesCaches):
     input_orders: tuple[tuple[int, int], ...]
     input_signs: Integers
     discrete: Integers
+    followed: Integers
     base: Integers
     derivative: Integers
     derivative_sign: Integers
@@ -192,6 +196,19 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
             f"after index reduction {len(incidence)} equations remain for {len(unknowns)} unknowns; "
             "the model has constraints that contradict or repeat each other"
         )
+    equation_of = {v: e for e, v in enumerate(variable_of)}
+
+    def reads(node: int) -> Sequence[int | str]:
+        if node in solved:
+            return (system.name(node),)
+        if (e := equation_of.get(node)) is None or system.modules[e]:
+            return ()
+        return (
+            *system.variables[e],
+            *((str(time),) if system.template[e].depends_on_time() else ()),
+        )
+
+    stops = followed(system.model, system.aliases, reads)
     blocks = graph.order_blocks(incidence, variable_of, n_nodes)
     steps = order_steps(system, incidence, variable_of, blocks)
     inputs, orders, signs = _inputs(system)
@@ -205,6 +222,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
         input_orders=tuple(orders),
         input_signs=np.asarray(signs, dtype=np.int64),
         discrete=np.asarray(list(system.discrete), dtype=np.int64),
+        followed=np.asarray([i for i in inputs if i in stops], dtype=np.int64),
         base=np.asarray(system.base, dtype=np.int64),
         derivative=np.asarray(system.structure.derivative, dtype=np.int64),
         derivative_sign=np.asarray(system.sign, dtype=np.int64),
