@@ -281,8 +281,9 @@ class System(LeavesCaches):
 
     @cached_property
     def edges(self) -> Edges:
-        """The times, known ahead, at which the derivatives of the states jump or bend."""
-        return Edges(self.program)
+        """The times, known ahead, at which the derivatives of the states, or conditions, jump or bend."""
+        guards = () if self.events is None else self.events.guards
+        return Edges(self.program, tuple(g.formula for g in guards if not g.timed))
 
     @cached_property
     def state_jacobian(self) -> StateJacobian:

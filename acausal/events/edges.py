@@ -7,7 +7,7 @@ the present time, with traced parameters, and it can be differentiated by them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -32,21 +32,39 @@ from acausal.codegen import (
     Program,
     SolveTornLoop,
     UnlikeFormulas,
+    Values,
     add_up,
+    compute,
     fill,
     read_elements,
 )
-from acausal.events.lines import BENT, NOTHING, Ahead, Line, Walk, has_edges, is_straight
+from acausal.events.lines import (
+    BENT,
+    NOTHING,
+    PART_OF_PERIOD,
+    WAVES,
+    Ahead,
+    Line,
+    Walk,
+    has_edges,
+    is_straight,
+)
+from acausal.events.zero_crossings import arrays_for
 from acausal.flattening import LeavesCaches
 from acausal.modeling import time
 
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """A formula or a sum, and the array that it fills; its other symbols are unknown."""
+    """A formula or a sum, and the array that it fills; its other symbols are unknown.
+
+    Attributes:
+        is_condition: whether it gives the numbers of a condition, so that its jumps are events.
+    """
 
     formula: ArrayFormula | Accumulate
     fills: int | None = None
+    is_condition: bool = False
 
     @property
     def sources(self) -> set[int]:
@@ -71,9 +89,14 @@ class _Part:
 
 @dataclass(frozen=True, eq=False)
 class Edges(LeavesCaches):
-    """Those of the derivatives of the states of a program: true if there are any."""
+    """Those of the derivatives of the states, and of the numbers of conditions: true if there are any.
+
+    Attributes:
+        conditions: the formulas of events, without those whose time is known.
+    """
 
     program: Program
+    conditions: tuple[ArrayFormula, ...] = ()
 
     def __bool__(self) -> bool:
         return bool(self._watched)
@@ -97,11 +120,47 @@ class Edges(LeavesCaches):
                 continue
             walk = point.walk(part.arguments)
             if part in self._watched:
-                found = found.joined(Ahead(*map(jnp.min, walk.visit(part.expression))))
+                own = Ahead(*map(jnp.min, walk.visit(part.expression)))
+                found = found.joined(own._replace(jump=jnp.inf) if part.is_condition else own)
             if part.fills is not None and part.is_known(self._known):
                 value, line = walk.value(part.expression), walk.line(part.expression)
                 point.fill(part, value, line)
         return found
+
+    def turn(self, now: Values, rates: Array) -> Array:
+        """How long a step may be, in seconds, by the sines of states that conditions depend on: a part of a period.
+
+        Arguments:
+            now: the values at its start. rates: the derivatives of the states.
+        """
+
+        def phases(t: Array, x: Array) -> Array:
+            at = now._replace(t=t, x=x)
+            arrays = arrays_for(self.program, self.phases, at, at)
+            found = [compute(phase, now.packed, arrays, t) for phase in self.phases]
+            return jnp.concatenate([jnp.ravel(value) for value in found])
+
+        point = (jnp.asarray(now.t, rates.dtype), now.x)
+        _, speeds = jax.jvp(phases, point, (jnp.ones_like(point[0]), rates))
+        speed = jnp.max(jnp.abs(speeds))
+        period = 2 * jnp.pi / jnp.where(speed > 0, speed, 1.0)
+        return jnp.where(speed > 0, PART_OF_PERIOD * period, jnp.inf)
+
+    @cached_property
+    def phases(self) -> tuple[ArrayFormula, ...]:
+        """Those of the sines that conditions depend on, as far as they do not follow from time alone."""
+        found: list[ArrayFormula] = []
+        for part in self._of_conditions:
+            formula = part.formula
+            if isinstance(formula, Accumulate):
+                continue
+            own = formula.arguments
+            known = {s for s, g in own.variables if set(g.sources) <= self._known}
+            known |= {time, *(s for s, _ in own.parameters), *(s for s, _ in own.modules)}
+            for wave in sorted(part.expression.atoms(*WAVES), key=str):
+                if not wave.free_symbols <= known and wave.free_symbols <= {time, *own.symbols}:
+                    found.append(replace(formula, expression=wave.args[0]))
+        return tuple(found)
 
     @cached_property
     def bends(self) -> bool:
@@ -109,7 +168,7 @@ class Edges(LeavesCaches):
 
         That is where states or inputs make it, or a curve of time, such as a sine that is clipped.
         """
-        for part in self._parts:
+        for part in self._needed(self.program.rate_sources):
             straight = self._known - self._curved
             bent = {s for s, g in part.arguments.variables if not set(g.sources) <= straight}
             known = {time, *part.arguments.symbols} - bent
@@ -121,12 +180,24 @@ class Edges(LeavesCaches):
 
     @cached_property
     def _parts(self) -> tuple[_Part, ...]:
-        """All formulas that the derivatives of the states need, in order."""
-        program = self.program
-        needed = program.needed(program.rate_sources)
-        return tuple(
-            part for i in needed for part in _parts(program.instructions[i], program.first[i])
-        )
+        """All formulas that the derivatives of the states and the conditions need, in order."""
+        conditions = tuple(_Part(c, is_condition=True) for c in self.conditions)
+        return *self._needed({*self.program.rate_sources, *self._read_by_conditions}), *conditions
+
+    @cached_property
+    def _of_conditions(self) -> tuple[_Part, ...]:
+        """Those that the conditions need."""
+        return *self._needed(self._read_by_conditions), *map(_Part, self.conditions)
+
+    @cached_property
+    def _read_by_conditions(self) -> set[int]:
+        """The arrays that conditions read, as they are now."""
+        return self.program.in_copy((s for c in self.conditions for s in c.sources), 0)
+
+    def _needed(self, sources: Iterable[int]) -> Iterator[_Part]:
+        """The formulas of the program that some arrays need, in order."""
+        for i in self.program.needed(sources):
+            yield from _parts(self.program.instructions[i], self.program.first[i])
 
     @cached_property
     def _known(self) -> set[int]:
@@ -215,8 +286,9 @@ class _Point:
         self, packed: Packed, t: Any, later: Any, program: Program, d: Array | None
     ) -> None:
         self.packed, self.t, self.later = packed, t, later
-        self.values: list[Any] = [None] * len(program.nodes)
-        self.lines: list[Line | None] = [None] * len(program.nodes)
+        n = 2 * len(program.nodes)  # conditions may read values before an event, which stay unknown
+        self.values: list[Any] = [None] * n
+        self.lines: list[Line | None] = [None] * n
         held = program.discrete_start if d is None else d
         for array, value in ((ZERO, jnp.zeros(())), (DISCRETE, jnp.asarray(held))):
             self.values[array], self.lines[array] = value, Line(value, 0.0)

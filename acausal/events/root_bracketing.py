@@ -155,11 +155,10 @@ def look(
 
 
 def _peak(share: Float[Array, "n_points n"], watched: Bool[Array, " n"]) -> Float[Array, ""]:
-    """Where between the `POINTS` a number is largest by the polynomial through them, if it is beyond zero there."""
+    """Where between the `POINTS` a number is first largest by the polynomial through them, and beyond zero."""
     between = jnp.asarray(QUARTIC, share.dtype) @ jnp.where(watched, share, -1.0)
-    largest = jnp.max(between, axis=1, initial=-1.0)
-    place = jnp.asarray(BETWEEN, share.dtype)[jnp.argmax(largest)]
-    return jnp.where(jnp.max(largest) > PEAK, place, 1.0)
+    places = jnp.asarray(BETWEEN, share.dtype)[jnp.argmax(between, axis=0)]
+    return jnp.min(jnp.where(jnp.max(between, axis=0) > PEAK, places, 1.0), initial=1.0)
 
 
 def _grazes(number: Float[Array, " n_points"]) -> Bool[Array, ""]:

@@ -9,7 +9,16 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
-from acausal.codegen import DISCRETE, ArrayFormula, Arrays, Values, compute, rates_from, run
+from acausal.codegen import (
+    DISCRETE,
+    ArrayFormula,
+    Arrays,
+    Program,
+    Values,
+    compute,
+    rates_from,
+    run,
+)
 from acausal.events.event_formulas import Events, Update
 
 
@@ -23,7 +32,7 @@ def guards(
         timed: only those of conditions whose time is known, which need no equation of the model; zero for the others.
     """
     wanted = [g.formula for g in events.guards if g.timed or not timed]
-    arrays = _arrays(events, wanted, now, now if before is None else before)
+    arrays = arrays_for(events.program, wanted, now, now if before is None else before)
     return _numbers(events, now, arrays, timed)
 
 
@@ -32,7 +41,8 @@ def guards_and_rates(
 ) -> tuple[Float[Array, " n_guards"], Float[Array, " n_states"]]:
     """The numbers of `guards` between events, and the derivatives of the states; what both read is computed once."""
     program = events.program
-    arrays = _arrays(events, [g.formula for g in events.guards], now, now, program.rate_sources)
+    wanted = [g.formula for g in events.guards]
+    arrays = arrays_for(program, wanted, now, now, program.rate_sources)
     return _numbers(events, now, arrays), rates_from(program, now, arrays)
 
 
@@ -88,7 +98,7 @@ def updated(
         conditions: 1 where a condition holds, else 0.
         initial: 1 while initial values are being found.
     """
-    arrays = _arrays(events, [u.formula for u in events.updates], now, before)
+    arrays = arrays_for(events.program, [u.formula for u in events.updates], now, before)
     assert now.d is not None
     d = jnp.concatenate([conditions.astype(now.d.dtype), now.d[events.n_guards :]])
     for update in events.updates:
@@ -99,22 +109,22 @@ def updated(
 
 def jumped(events: Events, now: Values, before: Values) -> Float[Array, " n_states"]:
     """The states, where some jump."""
-    arrays = _arrays(events, [jump.formula for jump in events.jumps], now, before)
+    arrays = arrays_for(events.program, [jump.formula for jump in events.jumps], now, before)
     x = now.x
     for jump in events.jumps:
         x = _put(x, jump, _value(jump.formula, now, arrays))
     return x
 
 
-def _arrays(
-    events: Events,
+def arrays_for(
+    program: Program,
     formulas: Sequence[ArrayFormula],
     now: Values,
     before: Values,
     others: Sequence[int] = (),
 ) -> list[Any]:
     """What the formulas read, and some other arrays: the program's arrays now, and those before the event."""
-    sources, program = {*others, *(s for f in formulas for s in f.sources)}, events.program
+    sources = {*others, *(s for f in formulas for s in f.sources)}
     return [
         a
         for k, at in enumerate((now, before))

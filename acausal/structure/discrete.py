@@ -87,8 +87,9 @@ def followed(
     """
     found = set[int]()
     discrete = set(aliases.representative[model.discrete].tolist())
+    memories = _memories(model, aliases)
     for update in model.events.updates:
-        if not update.always:
+        if not update.always or set(aliases.representative[update.targets].tolist()) <= memories:
             continue
         nodes = aliases.representative[update.group.variables]
         asks = [str(time)] if update.group.template.depends_on_time() else []
@@ -108,3 +109,14 @@ def followed(
                     found.add(node)
                     left += reads(node)
     return found
+
+
+def _memories(model: FlatModel, aliases: AliasFree) -> set[int]:
+    """The discrete variables of which nothing but the values before events is read."""
+    before, read = (set[int]() for _ in range(2))
+    for event in model.events.all:
+        for column, previous in zip(event.group.variables.T, event.previous, strict=True):
+            (before if previous else read).update(aliases.representative[column].tolist())
+    for group in aliases.groups:
+        read.update(np.unique(group.variables).tolist())
+    return before - read

@@ -247,3 +247,33 @@ def test_smooth_bumps_and_steps_of_time_are_seen():
     sol = ac.simulate(ac.compile(Bumps()), 10)
     lorentz = (np.arctan(2.9e3) + np.arctan(7.1e3)) / np.pi
     np.testing.assert_allclose([sol[n][-1] for n in "abc"], [1.0, lorentz, 1.0], rtol=1e-5)
+
+
+class Counters(ac.Component):
+    """How often waves have passed a level that no rate depends on; and a lag, which would take few steps."""
+
+    x = ac.Variable(start=0.0, fixed=True)
+    phi = ac.Variable(start=0.0, fixed=True)
+    by_time = ac.Discrete(0, kind="int")
+    by_both = ac.Discrete(0, kind="int")
+    by_angle = ac.Discrete(0, kind="int")
+
+    def equations(self) -> Equations:
+        t, level = ac.time, 0.9999
+        waves = {
+            self.by_time: ac.sin(40 * t),
+            self.by_both: ac.sin(40 * t + 0.01 * self.x),
+            self.by_angle: ac.cos(self.phi),
+        }
+        yield ac.Eq(ac.der(self.x), 1 - self.x)
+        yield ac.Eq(ac.der(self.phi), 20 * (1 + t))  # a shaft that speeds up
+        for count, wave in waves.items():
+            yield ac.When(wave > level, ac.Eq(count, ac.pre(count) + 1))
+
+
+def test_each_period_of_a_wave_in_a_condition_is_seen():
+    sol = ac.simulate(ac.compile(Counters()), (0.0, 4.0))
+    phi, rise = 20 * (4 + 8), np.arcsin(0.9999)
+    expected = [np.floor((angle - rise) / (2 * np.pi)) + 1 for angle in (160, 160.01)]
+    assert [int(sol[n][-1]) for n in ("by_time", "by_both")] == expected
+    assert int(sol["by_angle"][-1]) == (phi + np.arccos(0.9999)) // (2 * np.pi)

@@ -185,9 +185,11 @@ def look_within(
     found = look(events, bracketing, numbers, state.deadband, state.d, *lax.stop_gradient((t, h)))
     # a fast mode swings where stability limits the steps, and what depends on it changes to and fro
     doubted = ok & made.limited & found.bracketing.active & ~bracketing.active
-    searches = found.bracketing.active & (ok | bracketing.active) & ~doubted
-    peeks = ok & ~(found.bracketing.active | bracketing.active | state.peeked) & method.chooses
+    # what changes there and back before what is seen to change
+    before = ~found.bracketing.active | (found.peak * h <= found.bracketing.low)
+    peeks = ok & ~(bracketing.active | state.peeked | doubted) & method.chooses & before
     part = jnp.where(doubted, LESS, jnp.where(peeks, found.peak, 1.0)).astype(h.dtype)
+    searches = found.bracketing.active & (ok | bracketing.active) & (part == 1)
     is_event, changing = found.is_event, found.band
     if stop.times is not None:  # a condition whose time has come would be missed after the event
         near = jnp.abs(stop.times - (t + h)) <= stop.apart

@@ -288,10 +288,14 @@ def _aimed(method: Any, problem: Integration, c: LoopState, kind: Array) -> Aim:
         fixed = jnp.where(at_edge, lax.stop_gradient(stop.t), stop.t)
         moved, stop = stop.t - fixed if problem.forward else None, stop._replace(t=fixed)
     by_wave, by_span = jnp.array(False), jnp.array(False)
+    has_turns = c.events is not None and problem.field.has_turns
+    if has_turns:
+        turn = lax.stop_gradient(held.field.turn(*lax.stop_gradient((c.t, c.x))))
+        longest = jnp.minimum(longest, turn)
     if problem.max_step is not None:
         by_span = (problem.max_step < proposed) & (problem.max_step < longest)
         longest = jnp.minimum(longest, problem.max_step)
-    if has_edges or problem.max_step is not None:
+    if has_edges or has_turns or problem.max_step is not None:
         by_wave = (longest < proposed) & ~by_span
         shorter = jnp.minimum(proposed, longest).astype(proposed.dtype)
         proposed = lax.stop_gradient(shorter if method.chooses else proposed)
@@ -320,7 +324,8 @@ def _counted(
     counts = counts.plus(Counts.of(steps=ok, rejected=~ok & ~searching, searches=~ok & searching))
     if problem.field.has_edges:
         counts = counts.plus(Counts.of(edges=ok & ((row.kind == BEND) | (row.kind == EDGE))))
-    if problem.field.has_edges or problem.max_step is not None:
+    has_bound = problem.field.has_edges or problem.field.has_turns
+    if has_bound or problem.max_step is not None:
         free = ok & ~aim.to_stop
         counts = counts.plus(Counts.of(by_wave=free & aim.by_wave, by_span=free & aim.by_span))
     return counts

@@ -67,6 +67,16 @@ class RightHandSide(eqx.Module):
         found = due(events, self.at(t).values(x))
         return found._replace(t=found.t - self.shift(t))
 
+    @property
+    def has_turns(self) -> bool:
+        """Whether conditions depend on sines of states."""
+        return bool(self.system.edges.phases)
+
+    def turn(self, t: Array, x: Float[Array, " n_states"]) -> Array:
+        """How long a step may be for these, as of `Edges.turn`."""
+        field = self.at(t)
+        return self.system.edges.turn(field.values(x), field(x))
+
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
         return self.at(t)(x)
@@ -193,7 +203,7 @@ class Counts(NamedTuple):
         rates: evaluations of the right-hand side.
         jacobians: evaluations of its Jacobian, each factorized.
         corrections: Newton steps.
-        edges: steps that end at an edge. by_wave, by_span: steps as long as a sine of time, or `max_step`, allows.
+        edges: steps that end at an edge. by_wave, by_span: steps as long as a sine, or `max_step`, allows.
         looks: steps that are repeated for what a look inside has shown.
         searches: steps that only search for the instant of an event.
     """
