@@ -652,7 +652,7 @@ class System(LeavesCaches):
             numbers = u
         if not is_real(numbers):
             raise DataError(f"{argument}={shown(u)} are not inputs at one time; give real numbers.")
-        values = jnp.asarray(numbers, dtype=float)
+        values = array(numbers)
         if values.shape != (len(self.inputs),):
             raise DataError(
                 f"{argument} has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})"

@@ -309,6 +309,7 @@ def _lay_out(
     return path, measured, at(model.packed)
 
 
+@compiled
 def _sizes(path: AlongRecord, start: Values, measured: Measured) -> Float[Array, " n_states"]:
     """Half of the range that each state passes without corrections; its nominal value where that tells nothing.
 
@@ -324,7 +325,6 @@ def _sizes(path: AlongRecord, start: Values, measured: Measured) -> Float[Array,
     return jax.lax.stop_gradient(jnp.where(good, half, nominal).at[guesses].set(0.0))
 
 
-@compiled
 def _open_loop(path: AlongRecord, start: Values) -> tuple[Array, Array]:
     """States (n - 1, n_states) and what sensors would show, without corrections, from the first row on."""
     model, x = path.model, path.model.integrate(start, path.steps).x

@@ -13,7 +13,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Complex, Float, Inexact
 from scipy.linalg import expm, solve_continuous_are
 
-from acausal._jax import check_time, is_real
+from acausal._jax import array, check_time, compiled, is_real
 from acausal.analysis.operating_point import OperatingPoint
 from acausal.analysis.tracking import numbers_by_name
 from acausal.codegen import Values
@@ -418,12 +418,22 @@ def linearize(
     outputs = names_in(outputs, "outputs")
     at = point_of(system, x, inputs, params, t)
 
+    at = at._replace(t=array(at.t))  # one program for all times
+    (A, B), (C, D) = _matrices(system, outputs, at)
+    n = system.reduced.n_independent  # the guesses of loops follow from the other states
+    a, b, c, x = A[:n, :n], B[:n], C[:, :n], at.x[:n]
+    return Linearization(a, b, c, D, system.states[:n], system.inputs, outputs, x, at.u)
+
+
+@compiled
+def _matrices(
+    system: System, outputs: tuple[str, ...], at: Values
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """The derivatives of the rates by states and inputs, and those of the outputs."""
+
     def rates_and_outputs(x: Array, u: Array) -> tuple[Array, Array]:
         values = at._replace(x=x, u=u)
         observed = system.read(outputs, values) if outputs else jnp.zeros(0)
         return system.rates(values), observed
 
-    (A, B), (C, D) = jax.jacfwd(rates_and_outputs, argnums=(0, 1))(at.x, at.u)
-    n = system.reduced.n_independent  # the guesses of loops follow from the other states
-    a, b, c, x = A[:n, :n], B[:n], C[:, :n], at.x[:n]
-    return Linearization(a, b, c, D, system.states[:n], system.inputs, outputs, x, at.u)
+    return jax.jacfwd(rates_and_outputs, argnums=(0, 1))(at.x, at.u)

@@ -18,11 +18,14 @@ from jax import Array
 from jax.core import Tracer
 from jaxtyping import Float
 
-from acausal._jax import array, as_key
+from acausal._jax import array, as_key, compiled, traced
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.reading import compute
 from acausal.codegen.values import Packed
 from acausal.errors import DataError, DeclarationError, listing, shown
+
+FEW = 64
+"""Formulas that are compiled as one program. Of more, each operation is one: in long chains these are the same ones."""
 
 
 def default_parameters(layout: ParameterLayout, key: Array | None) -> dict[str, Any]:
@@ -103,6 +106,11 @@ def _as_array(given: Sequence[Any], known: Float[np.ndarray, " n_free"]) -> Floa
 
 def bind(layout: ParameterLayout, free: Array) -> Array:
     """All parameters and constants, shape (n_values,), from those that are free, in the program's order."""
+    at_once = 0 < len(layout.bound) <= FEW and not traced(free)
+    return (compiled(_bind) if at_once else _bind)(layout, free)
+
+
+def _bind(layout: ParameterLayout, free: Array) -> Array:
     arrays = [free]
     none = Packed(free, ())
     for formula in layout.bound:

@@ -17,7 +17,7 @@ from acausal.flattening import Binding, FlatModel, Integers, LeavesCaches, bindi
 from acausal.modeling import names_in
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ParameterLayout(LeavesCaches):
     """Where every parameter lies in `Packed`.
 

@@ -5,6 +5,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import translational as tl
+from tests.support.counted import compilations
 from tests.support.oscillator import plain
 
 
@@ -34,6 +35,15 @@ def test_matrices_are_those_of_the_oscillator(linearized: ac.Linearization) -> N
     np.testing.assert_allclose(B, [[0], [1]])
     np.testing.assert_allclose(C, [[1, 0], [-100, -2]])
     np.testing.assert_allclose(D, [[0], [1]])
+
+
+def test_its_matrices_are_one_program_at_all_points() -> None:
+    system = ac.compile(Oscillator())
+    with compilations() as found:
+        for t, x in ((0.0, [0.0, 0.0]), (1.5, [0.1, 0.2])):
+            ac.linearize(system, x, outputs=["mass.s"], t=t)
+    assert found.count("jit(_matrices)") == 1
+    assert len(found) < 6
 
 
 def test_eigenvalues_and_damping(linearized: ac.Linearization) -> None:

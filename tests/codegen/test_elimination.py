@@ -44,13 +44,15 @@ def test_the_residual_is_as_small_as_lapacks():
 
 @pytest.mark.parametrize("a", [np.zeros((3, 3)), np.ones((3, 3)), np.diag([1.0, 0.0, 2.0])])
 def test_a_singular_matrix_has_no_finite_solution(a):
-    assert not np.isfinite(eliminate(jnp.asarray(a), jnp.ones(3))).all()
+    assert not np.isfinite(jax.jit(eliminate)(a, np.ones(3))).all()
 
 
 def test_nan_is_passed_on():
     a, b = equations(4)
-    assert np.isnan(eliminate(a.at[2, 1].set(jnp.nan), b)).any()
-    assert np.isnan(eliminate(a, b.at[3].set(jnp.nan))).any()
+    solve, wrong, of_wrong = jax.jit(eliminate), np.array(a), np.array(b)
+    wrong[2, 1] = of_wrong[3] = np.nan
+    assert np.isnan(solve(wrong, b)).any()
+    assert np.isnan(solve(a, of_wrong)).any()
 
 
 @pytest.mark.slow

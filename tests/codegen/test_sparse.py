@@ -53,7 +53,7 @@ def test_derivatives_of_all_orders_and_modes(system, argument):
 
     for transform in (jax.grad, jax.jacfwd):
         of = [transform(loss(solve), argument) for solve in (matrix.solve, dense)]
-        close(of[0](entries, b), of[1](entries, b))
+        close(*(jax.jit(derivative)(entries, b) for derivative in of))
     direction = jnp.ones_like((entries, b)[argument])
 
     def curvature(solve):
@@ -62,7 +62,7 @@ def test_derivatives_of_all_orders_and_modes(system, argument):
             moved[argument] = moved[argument] + scale * direction
             return loss(solve)(*moved)
 
-        return jax.grad(jax.grad(along))(0.0)
+        return jax.jit(jax.grad(jax.grad(along)))(0.0)
 
     close(curvature(matrix.solve), curvature(dense))
 
@@ -72,7 +72,7 @@ def test_batches(system, axes):
     matrix, entries, b, dense = system
     scale = jnp.asarray([1.0, 0.5, 2.0])[:, None]
     batch = [v if a is None else scale * v for a, v in zip(axes, (entries, b), strict=True)]
-    close(*(jax.vmap(solve, axes)(*batch) for solve in (matrix.solve, dense)))
+    close(*(jax.jit(jax.vmap(solve, axes))(*batch) for solve in (matrix.solve, dense)))
 
 
 def test_batches_of_batches(system):

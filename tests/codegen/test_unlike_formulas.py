@@ -1,5 +1,6 @@
 """Many unlike formulas that are computed together: the same values, derivatives, messages and C."""
 
+from functools import partial
 from itertools import combinations
 
 import jax
@@ -49,6 +50,7 @@ def systems():
     return together, apart
 
 
+@partial(jax.jit, static_argnums=0)
 def rates(system, x, a):
     return system.vector_field(0.9, x, U, system.pack({"a": a}))
 

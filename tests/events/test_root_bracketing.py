@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from types import SimpleNamespace
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -42,10 +43,11 @@ def test_a_search_ends_where_shorter_steps_do_not_show_the_change() -> None:
     like = jnp.asarray(0.0)
     d, deadband, t, h = jnp.zeros(1), jnp.zeros(1), jnp.asarray(0.01), jnp.asarray(1e-4)
     shown = jnp.asarray([-1.0, -1.0, 1.0, 1.0, 1.0])[:, None]
-    found = look(events, no_bracketing(events, like), shown, deadband, d, t, h)
+    seen = jax.jit(lambda *found: look(events, *found))
+    found = seen(no_bracketing(events, like), shown, deadband, d, t, h)
     while not found.is_event:
         bracketing = found.bracketing
-        found = look(events, bracketing, -jnp.ones((5, 1)), deadband, d, t, bracketing.h)
+        found = seen(bracketing, -np.ones((5, 1)), deadband, d, t, bracketing.h)
     assert found.bracketing.tries < TRIES
 
 

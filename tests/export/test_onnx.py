@@ -89,7 +89,7 @@ def test_laws_in_batches(law, run, tmp_path):
     path = ac.export.onnx(network, tmp_path / "law.onnx", inputs=["s_rel"], batch="N")
     x = np.linspace(-4, 4, 9)
     (y,) = run(path, s_rel=x)
-    same(y, jax.vmap(ac.networks.law_of(network))(jnp.asarray(x)))
+    same(y, jax.jit(jax.vmap(ac.networks.law_of(network)))(x))
 
 
 def test_a_network_of_a_system_has_its_names(vehicle, tmp_path):

@@ -104,7 +104,7 @@ def test_a_controller_computes_at_the_ticks_of_its_clock(clocked: Clocked, kind:
     np.testing.assert_allclose(run["part.y"], ys, atol=1e-12)
 
 
-@pytest.mark.cases(fast=4, slow=6)
+@pytest.mark.cases(fast=2, slow=4)
 @KINDS
 @pytest.mark.parametrize(
     ("clock", "more", "h", "shift"),

@@ -14,7 +14,7 @@ from jax.scipy.special import erf
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import compiled
+from acausal._jax import array, compiled, numpy_or_jax, traced
 from acausal.networks import EnergyLaw, WithLaw, kept_promises, law_at, law_of, rise_of
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Network
@@ -45,7 +45,7 @@ class Stretched(eqx.Module):
 
     def back(self, s: ArrayLike) -> Array:
         """The argument."""
-        return jnp.interp(jnp.asarray(s), self.s, self.x)
+        return numpy_or_jax(s, self.s, self.x).interp(s, self.s, self.x)
 
 
 class Bumped(WithLaw):
@@ -74,8 +74,9 @@ class Bumped(WithLaw):
 
     def points(self, count: int) -> Float[Array, " count"]:
         """Values of the argument from the first to the last bump, closer where the law is steep."""
-        even = jnp.linspace(self.centres[0], self.centres[-1], count)
-        return even if self.stretched is None else self.stretched.back(even)
+        centres = self.centres if traced(self.centres) else np.asarray(self.centres)
+        even = numpy_or_jax(centres).linspace(centres[0], centres[-1], count)
+        return array(even if self.stretched is None else self.stretched.back(even))
 
     def __call__(self, *inputs: Float[Array, ""]) -> Float[Array, ""]:
         """The law, or the energy whose derivative it is."""
@@ -134,7 +135,7 @@ def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"])
     hole = jnp.minimum(width, rise_of(network)) if "zero" in kept and mirrored >= 0 else None
     stretched = None if isinstance(network, EnergyLaw) else _stretched(network, seen, centres)
     if stretched is not None:
-        first, last = stretched.s[0], stretched.s[-1]
+        first, last = np.asarray(stretched.s)[[0, -1]]
         count = min(int((last - first) / width) + 2, MOST)
         centres = np.linspace(first, last, count)
         width = jnp.asarray(centres[1] - centres[0])
