@@ -142,7 +142,7 @@ class Edges(LeavesCaches):
 
         point = (jnp.asarray(now.t, rates.dtype), now.x)
         _, speeds = jax.jvp(phases, point, (jnp.ones_like(point[0]), rates))
-        speed = jnp.max(jnp.abs(speeds))
+        speed = jnp.max(jnp.where(jnp.isfinite(speeds), jnp.abs(speeds), 0.0))
         period = 2 * jnp.pi / jnp.where(speed > 0, speed, 1.0)
         return jnp.where(speed > 0, PART_OF_PERIOD * period, jnp.inf)
 

@@ -112,11 +112,12 @@ def followed(
 
 
 def _memories(model: FlatModel, aliases: AliasFree) -> set[int]:
-    """The discrete variables of which nothing but the values before events is read."""
+    """The discrete variables without another name of which nothing but the values before events is read."""
     before, read = (set[int]() for _ in range(2))
     for event in model.events.all:
         for column, previous in zip(event.group.variables.T, event.previous, strict=True):
             (before if previous else read).update(aliases.representative[column].tolist())
     for group in aliases.groups:
         read.update(np.unique(group.variables).tolist())
-    return before - read
+    names = np.bincount(aliases.representative[: model.n_variables])
+    return {node for node in before - read if names[node] == 1}

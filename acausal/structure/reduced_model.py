@@ -196,12 +196,14 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
             f"after index reduction {len(incidence)} equations remain for {len(unknowns)} unknowns; "
             "the model has constraints that contradict or repeat each other"
         )
+    inputs, orders, signs = _inputs(system)
+    moving = {*solved, *(i for i, (_, order) in zip(inputs, orders, strict=True) if order)}
     equation_of = {v: e for e, v in enumerate(variable_of)}
 
     def reads(node: int) -> Sequence[int | str]:
-        if node in solved:
+        if node in moving:
             return (system.name(node),)
-        if (e := equation_of.get(node)) is None or system.modules[e]:
+        if (e := equation_of.get(node)) is None:
             return ()
         return (
             *system.variables[e],
@@ -211,7 +213,6 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
     stops = followed(system.model, system.aliases, reads)
     blocks = graph.order_blocks(incidence, variable_of, n_nodes)
     steps = order_steps(system, incidence, variable_of, blocks)
-    inputs, orders, signs = _inputs(system)
     return ReducedModel(
         model=system.model,
         aliases=system.aliases,

@@ -100,6 +100,7 @@ def test_what_jumps_elsewhere_is_an_event_with_derivatives() -> None:
         (lambda x: x, "sources[1].x"),
         (lambda x: ac.where(x > 0.5, x, 0), "sources[1].x"),
         (lambda _: ac.sin(ac.time), "time"),
+        (lambda x: ac.table([0.0, 1.0, 2.0], [0.0, 1.0, 0.0])(x), "sources[1].x"),
     ],
 )
 def test_what_changes_between_events_is_refused(jump: Jump, by: str) -> None:
@@ -109,6 +110,44 @@ def test_what_changes_between_events_is_refused(jump: Jump, by: str) -> None:
         f"'sinks[1].n' changes at events alone, but by sinks[1] (Follows: n = v) it would follow '{by}'"
         in str(caught.value)
     )
+
+
+class Remembers(ac.Component):
+    """A discrete variable of which only the value before an event is read; it may have another name."""
+
+    u = ac.Input()
+    n, m = ac.Discrete(0), ac.Discrete(0)
+    x = ac.Variable(start=0.0, fixed=True)
+
+    def __init__(self, *, named: bool) -> None:
+        super().__init__()
+        self.named = named
+        if named:
+            self.y = ac.Output()
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), 1)
+        yield ac.Eq(self.n, 2 * self.x)
+        yield ac.When(self.x > 1, ac.Eq(self.m, ac.pre(self.n)))
+        if self.named:
+            yield ac.Eq(self.y, self.n)
+
+
+def test_what_is_only_remembered_need_not_follow() -> None:
+    ac.compile(Remembers(named=False))
+    with pytest.raises(ac.StructureError, match="it would follow 'x'"):
+        ac.compile(Remembers(named=True))
+
+
+def test_the_derivative_of_an_input_cannot_be_followed() -> None:
+    class Rate(Follows):
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(self.v, ac.der(self.u))
+            yield ac.Eq(self.n, self.v)
+            yield ac.Eq(ac.der(self.z), self.n)
+
+    with pytest.raises(ac.StructureError, match=r"it would follow '(v|der\(u\))'"):
+        ac.compile(Rate())
 
 
 def test_an_input_that_is_followed_is_held() -> None:

@@ -288,7 +288,7 @@ def _aimed(method: Any, problem: Integration, c: LoopState, kind: Array) -> Aim:
         fixed = jnp.where(at_edge, lax.stop_gradient(stop.t), stop.t)
         moved, stop = stop.t - fixed if problem.forward else None, stop._replace(t=fixed)
     by_wave, by_span = jnp.array(False), jnp.array(False)
-    has_turns = c.events is not None and problem.field.has_turns
+    has_turns = c.events is not None and method.chooses and problem.field.has_turns
     if has_turns:
         turn = lax.stop_gradient(held.field.turn(*lax.stop_gradient((c.t, c.x))))
         longest = jnp.minimum(longest, turn)
