@@ -21,7 +21,12 @@ from acausal.data.params_file import (
     load_params as load_params,
     save_params as save_params,
 )
-from acausal.data.readers import is_data_frame as is_data_frame
+from acausal.data.readers import (
+    counts_rows as counts_rows,
+    is_data_frame as is_data_frame,
+    is_series as is_series,
+    read_series as read_series,
+)
 from acausal.data.record import Data as Data
 from acausal.data.samples import check_resolution as check_resolution
 from acausal.data.several import (

@@ -61,8 +61,9 @@ def check_unit_names(units: Mapping[str, str], names: Collection[str]) -> None:
     """Refuse units that some signals lack, or that belong to no signal."""
     without = [n for n in names if n not in units]
     if without:
+        have = "has" if len(without) == 1 else "have"
         raise DataError(
-            f"{listing(without)} have no unit while other signals have one; give units to all."
+            f"{listing(without)} {have} no unit while other signals have one; give units to all."
         )
     extra = [n for n in units if n not in names and n != "time"]
     if extra:

@@ -56,8 +56,9 @@ class Data(ByName, Formats):
         signals: by name, samples of shape (n,), or a pair (times, samples) of a signal with times of its own; or a
             pandas DataFrame with a column for each. Times of two signals that differ by less than 1e-6 of the local
             sample time are one.
-        units: unit of every signal by name; by default those of a DataFrame's ``attrs["units"]`` or of the signals'
-            own, as xarray has them, else the model's units are assumed. That of ``"time"`` holds for all times.
+        units: unit of every signal by name, or of none; by default those of a DataFrame's ``attrs["units"]`` or of
+            the signals' own, as xarray has them, else the model's units are assumed. That of ``"time"`` holds for all
+            times.
         interpolation: of inputs between samples, one choice for all or by name, as of an
             `acausal.Signal`: ``"linear"``, ``"previous"``, ``"cubic"`` or ``"band-limited"``. Where nothing is
             chosen it is linear, and cubic for an input that the model differentiates.
@@ -101,9 +102,9 @@ class Data(ByName, Formats):
         unit_of_time = (units or {}).get("time", "s")
         ts, columns, missing = columns_of(time, signals, missing, mask, unit_of_time)
         ts = convert(ts, unit_of_time, "s", "'time'")
+        units = {n: u for n, u in (units or {}).items() if n != "time"} or None
         if units is not None:
             check_unit_names(units, columns)
-            units = {n: u for n, u in units.items() if n != "time"}
         check_choices("interpolation", interpolation, get_args(Interpolation), columns)
         check_choices("before_start", before_start, get_args(Beyond), columns)
         check_choices("after_end", after_end, get_args(Beyond), columns)

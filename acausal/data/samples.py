@@ -17,6 +17,11 @@ UNIFORM = 1e-6
 
 LEAVE_OUT = "leave such samples out, or fill the gap"
 
+TWICE = (
+    " Leave out one of the two; for a jump of an input, say interpolation='previous', or put a "
+    "blocks.CombiTimeTable into the model, which takes a time twice."
+)
+
 Place: TypeAlias = Callable[[int], str]
 """How a message names a sample by its index: ``"sample 3"``, or ``"line 5"`` of a file."""
 
@@ -39,7 +44,7 @@ def check_time_base(ts: np.ndarray, what: str, place: Place = sample) -> None:
     i = _first(~(ts[1:] > ts[:-1]))
     if i is not None:
         coarse = np.issubdtype(ts.dtype, np.floating) and ts.dtype.itemsize < 8
-        equal = f" Times in {ts.dtype} are too coarse for this: give float64." if coarse else ""
+        equal = f" Times in {ts.dtype} are too coarse for this: give float64." if coarse else TWICE
         raise DataError(
             f"{what} has a time base that does not increase: "
             f"{ts[i]:.9g} s at {place(i)} is followed by {ts[i + 1]:.9g} s."

@@ -15,10 +15,20 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
 from acausal._jax import array, compiled, is_real, traced
-from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
+from acausal.data import (
+    Data,
+    Interpolation,
+    Signal,
+    counts_rows,
+    differentiate,
+    is_data_frame,
+    is_series,
+    read_series,
+)
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
 from acausal.modeling import antiderivatives, by_name
 from acausal.simulation.host_function import on_host
+from acausal.units import convert
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -99,17 +109,27 @@ class Derivative(eqx.Module):
 
 
 def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
-    """The inputs as a user gives them, by name; those of a record or a pandas DataFrame in the model's units.
+    """The inputs as a user gives them, by name; those of a record or of pandas in the model's units.
+
+    A pandas Series becomes a pair (times, samples), unless its index only counts the rows.
 
     Raises:
         DataError: for what has no names.
     """
+    known = {form for name in system.inputs for form in antiderivatives(name)}
     if isinstance(given, Data) or is_data_frame(given):
         record = Data.of(given)
-        known = {form for name in system.inputs for form in antiderivatives(name)}
         return record.select([n for n in record.signals if n in known]).for_system(system)
     first = system.inputs[0] if system.inputs else "name"
-    return by_name(given, "inputs", f"inputs={{'{first}': ...}}, with {FORMS} for each")
+    found = by_name(given, "inputs", f"inputs={{'{first}': ...}}, with {FORMS} for each")
+    series = {
+        n: v for n, v in found.items() if n in known and is_series(v) and not counts_rows(v.index)
+    }
+    pairs = {
+        n: (ts, samples if unit is None else convert(samples, unit, system.unit(n), f"'{n}'"))
+        for n, (ts, samples, unit) in read_series(series).items()
+    }
+    return {**found, **pairs}
 
 
 def functions_of_time(
@@ -238,8 +258,13 @@ def _function(
             raise DataError(f"Input '{name}' is {samples}.")
         return Constant(array(cast(ArrayLike, value)))
     if ends is None:
+        rows = (
+            " The index of its pandas Series only counts the rows; name it 'time' if it does not."
+            if is_series(value)
+            else ""
+        )
         raise DataError(
-            f"Input '{name}' has samples but no times: give (times, samples), or dt for fixed steps."
+            f"Input '{name}' has samples but no times: give (times, samples), or dt for fixed steps.{rows}"
         )
     if samples.shape != ends.shape:
         raise DataError(

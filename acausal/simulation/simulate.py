@@ -93,12 +93,12 @@ def simulate(
             its time is known and JAX does not compile or map the whole.
         saveat: times to save, in seconds. By default every step, or 500 equal points without ``dt``.
         inputs: by name, for every input of the model: a number; an array of samples at the ends of the fixed
-            steps; a pair (times, samples), interpolated linearly; a `Signal`; a function of time. One that JAX
-            can trace is fast; any other is called back from the steps, and differentiated by difference quotients.
-            Or a `Data` record or pandas DataFrame that holds the inputs. Samples that fall on the steps' ends cost
-            nothing. They must reach from start to end, unless a `Signal` or `Data` says what comes before or after
-            them. A derivative of an input, ``der(...)``, can be left out: it is that of the function, or of the
-            interpolation, which is then cubic by default.
+            steps; a pair (times, samples), or a pandas Series with the times as its index, interpolated linearly; a
+            `Signal`; a function of time. One that JAX can trace is fast; any other is called back from the steps, and
+            differentiated by difference quotients. Or a `Data` record or pandas DataFrame that holds the inputs.
+            Samples that fall on the steps' ends cost nothing. They must reach from start to end, unless a `Signal` or
+            `Data` says what comes before or after them. A derivative of an input, ``der(...)``, can be left out: it is
+            that of the function, or of the interpolation, which is then cubic by default.
         params: as `system.parameters` gives them, the default.
         x0: initial values by name, or the whole state; by default the model's start values. ``"steady"`` starts at
             rest, with the inputs as they are then; fixed starts stay as they are, and must be those of rest.
@@ -248,7 +248,16 @@ def _has_traced(given: object) -> bool:
     return not isinstance(given, Packed) and any(map(differentiated, values))
 
 
+def _need_known_times(what: str, given: object) -> None:
+    if traced(given):
+        raise DataError(
+            f"The times of a simulation must be known numbers, but JAX traces {what}. The derivative of x with respect "
+            "to the end time is der(x) there: let the model have a variable that is der(x), and read it at the end."
+        )
+
+
 def _span(t: float | tuple[float, float]) -> tuple[float, float]:
+    _need_known_times("t", t)
     try:
         if not is_real(t):
             raise TypeError
@@ -286,6 +295,7 @@ def _check_adjoint(adjoint: object) -> None:
 
 
 def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray, " n_saved"]:
+    _need_known_times("saveat", saveat)
     if not is_real(saveat):
         raise DataError(f"saveat={shown(saveat)} are not times; give seconds.")
     ts = np.atleast_1d(np.asarray(saveat, float))

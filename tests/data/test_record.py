@@ -154,7 +154,7 @@ def test_temperatures_that_look_like_degrees_celsius_are_said_to(recwarn):
         ),
         (
             lambda: ac.Data(TIME, {"x": TIME, "y": TIME}, {"x": "m"}),
-            "'y' have no unit while other signals have one; give units to all.",
+            "'y' has no unit while other signals have one; give units to all.",
         ),
         (
             lambda: ac.Data(TIME, {"x": TIME}, {"x": "m", "y": "m"}),
@@ -227,7 +227,7 @@ def test_signals_say_their_units():
     column.attrs["units"] = "mm"
     data = ac.Data(TIME, {"mass.s": column}).for_system(plain())
     np.testing.assert_allclose(data["mass.s"], 1e-3 * TIME)
-    assert "have no unit" in refused(lambda: ac.Data(TIME, {"mass.s": column, "mass.v": TIME}))
+    assert "has no unit" in refused(lambda: ac.Data(TIME, {"mass.s": column, "mass.v": TIME}))
 
 
 def test_a_unit_that_is_none():

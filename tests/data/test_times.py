@@ -73,3 +73,53 @@ def test_row_numbers_are_no_times():
     frame = pd.DataFrame({"x": STEPS})
     with pytest.raises(ac.DataError, match="its index only counts the rows"):
         ac.Data.from_dataframe(frame[frame["x"] != 2])
+
+
+TIMES = pd.Index([0.0, 1000.0, 2000.0, 3000.0, 4000.0], name="time [ms]")
+
+
+def test_a_named_index_has_a_unit_as_a_column_has():
+    frame = pd.DataFrame({"x [mm]": STEPS}, index=TIMES)
+    named_t = frame.rename_axis("t [ms]")
+    by_attributes = frame.rename_axis("t")
+    by_attributes.attrs["units"] = {"t": "ms", "x": "mm"}
+    durations = frame.set_axis(pd.to_timedelta(STEPS, unit="s").rename("time [ms]"))
+    named_x = frame.rename_axis("x [ms]")
+    for given in (frame, frame.reset_index(), named_t, named_x, by_attributes, durations):
+        data = ac.Data.from_dataframe(given)
+        assert data.time.tolist() == STEPS.tolist()
+        assert data.units == {"x": "mm"}
+
+
+@pytest.mark.parametrize("time", ["t", "t [ms]"])
+def test_times_are_found_by_their_name_or_their_whole_header(time, tmp_path):
+    frame = pd.DataFrame({"x": STEPS}, index=TIMES.rename("t [ms]"))
+    frame.to_csv(tmp_path / "run.csv")
+    for data in (
+        ac.Data.from_dataframe(frame, time=time),
+        ac.Data.from_dataframe(frame.reset_index(), time=time),
+        ac.Data.from_csv(tmp_path / "run.csv", time=time),
+    ):
+        assert data.time.tolist() == STEPS.tolist()
+        assert data.names == ("x",)
+        assert data.units is None
+    with pytest.raises(ac.DataError, match=r"has no column 't \[s\]': known are 'x', 't'"):
+        ac.Data.from_dataframe(frame, time="t [s]")
+
+
+def test_the_unit_of_time_may_be_the_only_one():
+    data = ac.Data(TIMES, {"x": STEPS}, units={"time": "ms"})
+    assert data.time.tolist() == STEPS.tolist()
+    assert data.units is None
+
+
+def test_two_samples_at_one_time_are_a_jump_to_be_said_otherwise():
+    jump = [0.0, 1.0, 1.0, 2.0, 3.0]
+    remedy = (
+        "1 s at sample 1 is followed by 1 s. Leave out one of the two; for a jump of an input, say "
+        "interpolation='previous', or put a blocks.CombiTimeTable into the model, which takes a time twice."
+    )
+    for make in (ac.Data, lambda t, x: ac.Signal(t, x["x"])):
+        with pytest.raises(ac.DataError) as error:
+            make(jump, {"x": STEPS})
+        assert str(error.value).endswith(remedy)

@@ -11,7 +11,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import translational as tl
-from acausal.simulation.inputs import Derivative, breaks, functions_of_time
+from acausal.simulation.inputs import Derivative, breaks, functions_of_time, inputs_by_name
 from acausal.simulation.sampled_inputs import over_steps
 from tests.support.oscillator import plain
 
@@ -205,6 +205,45 @@ def test_a_data_frame_gives_the_inputs():
     assert "samples up to 1 s" in refused(by_index, (0.0, 2.0))
     texts = pandas.DataFrame({PUSH: ["a"] * 11}, index=T)
     assert refused(texts) == "'push.f' holds object; real numbers are needed."
+
+
+def test_a_series_has_its_times():
+    pandas = pytest.importorskip("pandas")
+    expected = simulated({PUSH: (T, 1e3 * T)}).x
+    by_name = pandas.Series(T, pandas.Index(1e3 * T, name="time [ms]"), name="f [kN]")
+    by_attributes = pandas.Series(1e3 * T, pandas.to_timedelta(T, unit="s"))
+    by_attributes.attrs["units"] = "N"
+    for series in (by_name, by_attributes, pandas.Series(1e3 * T, T, name=PUSH)):
+        np.testing.assert_allclose(simulated({PUSH: series}).x, expected, rtol=1e-12)
+    rows = pandas.Series(1e3 * T)
+    np.testing.assert_array_equal(simulated({PUSH: rows}).x, expected)
+    assert "The index of its pandas Series only counts" in refused({PUSH: rows}, dt=None)
+    assert refused({"push.F": by_name}) == "The model has no input 'push.F': did you mean 'push.f'?"
+    assert "'push.f' is given in 'm'" in refused({PUSH: by_name.rename("f [m]")})
+    assert refused({PUSH: pandas.Series(["a"] * 11, T)}).startswith("'push.f' holds")
+
+
+def test_dates_of_two_series_have_one_origin():
+    pandas = pytest.importorskip("pandas")
+    dates = pandas.date_range("2024-01-01", periods=11, freq="100ms", tz="Europe/Berlin")
+    early = pandas.Series(T, dates, name="u")
+    late = pandas.Series(T, dates + pandas.Timedelta(seconds=2), name="v")
+    given = inputs_by_name(driven(), {REFERENCE: late, f"der({REFERENCE})": early})
+    np.testing.assert_allclose([ts[0] for ts, _ in given.values()], [2.0, 0.0], atol=1e-12)
+
+
+@pytest.mark.parametrize("how", ["end", "span", "saveat"])
+def test_times_of_a_simulation_cannot_be_traced(how):
+    def last(t):
+        span = {"end": t, "span": (0.0, t), "saveat": 1.0}[how]
+        saveat = [0.5, t] if how == "saveat" else None
+        return ac.simulate(plain(), span, saveat=saveat, inputs={PUSH: 0.0})["mass.s"][-1]
+
+    with pytest.raises(
+        ac.DataError, match=r"must be known numbers, but JAX traces (t|saveat)\."
+    ) as found:
+        jax.grad(last)(1.0)
+    assert "with respect to the end time is der(x) there" in str(found.value)
 
 
 def test_names_from_numpy_and_pandas():

@@ -5,11 +5,14 @@ In: paths, pandas and xarray objects. Out: `SignalTable`. What makes a record of
 
 from acausal.data.readers.csv_file import read_csv as read_csv
 from acausal.data.readers.data_frame import (
+    counts_rows as counts_rows,
     data_frame as data_frame,
     is_data_frame as is_data_frame,
+    is_series as is_series,
     need_unique as need_unique,
     read_parquet as read_parquet,
     read_runs as read_runs,
+    read_series as read_series,
     units_said as units_said,
 )
 from acausal.data.readers.many_files import files as files

@@ -131,7 +131,9 @@ def _read(
     head = list(islice(lines, GUESS))
     rows = [line for _, line in head if line.strip()]
     dialect = dialect_of(header, rows, separator, decimal)
-    names, units = headers(dialect.header(header), f"{path}, line {number}")
+    cells = dialect.header(header)
+    names, units = headers(cells, f"{path}, line {number}")
+    selection = selection.with_bare_time(cells, names)
     need_time(selection, names, str(path))
     chosen = [selection.time, *selection.names(names, str(path))]
     blocks, runs = list[Float[np.ndarray, "rows columns"]](), list[str]()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeGuard
 import numpy as np
 
 from acausal.data.readers.table import (
+    HEADER,
     Selection,
     SignalTable,
     headers,
@@ -17,10 +18,12 @@ from acausal.data.readers.table import (
     need_time,
     seconds,
 )
+from acausal.data.samples import check_samples, check_time_base
 from acausal.errors import DataError, need_package, reason, shown
+from acausal.units import convert
 
 if TYPE_CHECKING:
-    from pandas import DataFrame, Index
+    from pandas import DataFrame, Index, Series
 
 
 def is_data_frame(thing: object) -> TypeGuard[DataFrame]:
@@ -29,8 +32,18 @@ def is_data_frame(thing: object) -> TypeGuard[DataFrame]:
     return pandas is not None and isinstance(thing, pandas.DataFrame)
 
 
-def read_data_frame(frame: object, selection: Selection, source: str = "") -> SignalTable:
+def is_series(thing: object) -> TypeGuard[Series]:
+    """Whether something is a pandas Series; pandas is not imported for that."""
+    pandas = sys.modules.get("pandas")
+    return pandas is not None and isinstance(thing, pandas.Series)
+
+
+def read_data_frame(
+    frame: object, selection: Selection, source: str = "", first: Any = None
+) -> SignalTable:
     """A table from a data frame with the times in a column, or as its index.
+
+    Dates count from a ``first`` one, or from their own.
 
     Raises:
         DataError: for anything else, for a frame without times, and for two columns of one name.
@@ -45,15 +58,48 @@ def read_data_frame(frame: object, selection: Selection, source: str = "") -> Si
         raise DataError(f"{what} has a column {shown(odd)}; give it a name such as 'mass.s'.")
     names, in_headers = headers(texts, what)
     column_of = dict(zip(names, texts, strict=True))
-    if selection.time in column_of:
-        time = _array(frame[column_of[selection.time]])
-    else:
-        time = _array(_time_index(frame, selection, names, what))
+    selection = selection.with_bare_time(texts, names)
     signals = {n: _array(frame[column_of[n]]) for n in selection.names(names, what)}
+    if selection.time in names:
+        label, time = selection.time, _array(frame[column_of[selection.time]])
+    else:
+        header = _header(frame.index)
+        (name,), unit = headers([header], what)
+        _need_time_index(frame.index, name, selection, names, what)
+        label, time = "time" if name in names else name, _array(frame.index)
+        column_of |= {} if name in names else {name: header}
+        in_headers |= {label: unit[name]} if unit else {}
     units = {**in_headers, **_units(frame, column_of)}
-    unit_of_time = units.pop(selection.time, units.pop("time", None))
-    units |= {"time": unit_of_time} if unit_of_time is not None else {}
-    return selection.table(seconds(time), signals, units, source)
+    unit_of_time = units.pop(label, units.pop("time", None))
+    if unit_of_time is not None and time.dtype.kind not in "mM":
+        units["time"] = unit_of_time
+    return selection.table(seconds(time, first), signals, units, source)
+
+
+def read_series(
+    series: Mapping[str, Series],
+) -> dict[str, tuple[np.ndarray, np.ndarray, str | None]]:
+    """The times [s], the samples and the unit of each series by name; its index holds the times.
+
+    Dates count from the first of all. The unit is in a series' attributes or its name, ``name [unit]``.
+
+    Raises:
+        DataError: for what is no time base, or has no unit of time, and samples that are not finite real numbers.
+    """
+    dates = [_array(s.index) for s in series.values() if s.index.dtype.kind == "M" and len(s)]
+    first = min((d[0] for d in dates), default=None)
+    found: dict[str, tuple[np.ndarray, np.ndarray, str | None]] = {}
+    for name, one in series.items():
+        plain = not isinstance(one.name, str) or one.name in ("time", one.index.name)
+        frame = one.to_frame("samples" if plain else one.name)
+        table = read_data_frame(frame, Selection(), f"'{name}'", first)
+        ((label, samples),) = table.signals.items()
+        assert table.time is not None
+        check_time_base(table.time, f"'{name}'")
+        check_samples(samples, table.time.shape, f"'{name}'")
+        time = convert(table.time, table.units.get("time", "s"), "s", f"The time of '{name}'")
+        found[name] = time, samples, table.units.get(label)
+    return found
 
 
 def need_unique(frame: DataFrame, what: str) -> None:
@@ -111,16 +157,27 @@ def data_frame(
     return frame
 
 
-def _time_index(frame: DataFrame, selection: Selection, names: list[str], what: str) -> Index:
-    """The index, if it holds the times."""
-    if selection.time not in ("time", frame.index.name):
-        need_time(selection, names, what)
-    if frame.index.name is None and frame.index.dtype.kind in "iu":
+def counts_rows(index: Index) -> bool:
+    """Whether an index is one of whole numbers without a name, and so no times."""
+    return index.name is None and index.dtype.kind in "iu"
+
+
+def _header(index: Index) -> str:
+    """The name of an index, such as ``t [ms]``; ``time`` where it has none."""
+    return index.name if isinstance(index.name, str) and HEADER.fullmatch(index.name) else "time"
+
+
+def _need_time_index(
+    index: Index, label: str, selection: Selection, names: list[str], what: str
+) -> None:
+    """Refuse an index that does not hold the times."""
+    if selection.time not in ("time", label, index.name):
+        need_time(selection, [*names, label], what)
+    if counts_rows(index):
         raise DataError(
             f"{what} has no time: its index only counts the rows. Give it a column 'time' in seconds, "
             "or times as its index."
         )
-    return frame.index
 
 
 def _array(column: Any) -> np.ndarray:
@@ -139,7 +196,11 @@ def _units(frame: DataFrame, column_of: Mapping[str, str]) -> dict[str, str]:
     """Units in the attributes of the frame, or of its columns."""
     of_frame: Any = frame.attrs.get("units", {})
     of_frame = of_frame if isinstance(of_frame, Mapping) else {}
-    of_columns = {n: frame[column].attrs.get("units") for n, column in column_of.items()}
+    of_columns = {
+        n: frame[column].attrs.get("units")
+        for n, column in column_of.items()
+        if column in frame.columns
+    }
     found = {
         n: of_frame.get(n, of_frame.get(column_of.get(n, n), of_columns.get(n)))
         for n in (*column_of, "time")

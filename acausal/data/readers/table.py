@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class SignalTable:
     Arguments:
         time: sample times; None if every signal has its own.
         signals: by name, samples or a pair (times, samples).
-        units: by name, with that of ``"time"``; of all, or of none.
+        units: by name, with that of ``"time"``; of all signals, or of none.
         source: names the file in errors; empty for an object in memory.
         place: names a sample in errors.
     """
@@ -68,6 +68,16 @@ class Selection:
         for name in (*(columns or ()), *rename, *group):
             need_column(name, known, source)
         return [n for n in (known if columns is None else columns) if n not in (self.time, *group)]
+
+    def with_bare_time(self, cells: Sequence[str], names: Sequence[str]) -> Self:
+        """The selection with the name of the times where it has their whole header, ``name [unit]``.
+
+        Arguments:
+            cells: the headers of the source. names: the name in each.
+        """
+        whole = {cell.strip(): name for cell, name in zip(cells, names, strict=True)}
+        known = isinstance(self.time, str) and self.time in whole
+        return replace(self, time=whole[self.time]) if known else self
 
     def table(
         self,

@@ -64,7 +64,7 @@ def test_two_rates_are_read_back():
 def test_units_of_a_data_frame():
     pandas = need("pandas")
     frame = pandas.DataFrame({"time [ms]": 1e3 * TIME, "x [mm]": TIME, "y": TIME})
-    assert "'y' have no unit" in refused(lambda: ac.Data.from_dataframe(frame))
+    assert "'y' has no unit" in refused(lambda: ac.Data.from_dataframe(frame))
     frame.attrs["units"] = {"y": "V", "x": "cm"}
     data = ac.Data.from_dataframe(frame, rename={"y": "level"})
     assert data.units == {"x": "cm", "level": "V"}
