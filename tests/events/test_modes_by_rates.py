@@ -74,20 +74,18 @@ class Kinked(RightHandSide):
 
 
 def test_rates_that_decide_are_those_behind_a_kink(system: ac.System) -> None:
-    at, zero, one = start(system), jnp.zeros(()), jnp.ones(())
-    none = jnp.zeros(0)
+    at, n, one = start(system), jnp.asarray(0), jnp.ones(())
+    assert at.d is not None
+    none, d = jnp.zeros(0), at.d
+    kinked = Kinked(at, system=system, d=d)
     problem = Integration(
-        Kinked(at, system=system, d=at.d), at.x, zero, one, none, none, none, one, one, 9,
-        events=system.events,
-    )  # fmt: skip
-    row = Row(zero, one, *[jnp.asarray(0)] * 4, at.x)
-    before = np.nextafter(1.0, 0.0)
-    found = [
-        float(
-            rates_at(problem, jnp.asarray(before), row._replace(instant=jnp.asarray(i)))(
-                at.x, at.d
-            )[1][2]
-        )
-        for i in (0.0, 1e-12)
-    ]
-    assert found == [1.0, -1.0]
+        kinked, at.x, 0 * one, one, none, none, none, one, one, max_steps=9, events=system.events
+    )
+    before = jnp.asarray(np.nextafter(1.0, 0.0))
+
+    def rate(instant: float) -> float:
+        row = Row(0 * one, one, n, n, n, n, at.x, instant=jnp.asarray(instant))
+        return float(rates_at(problem, before, row)(at.x, d)[1][2])
+
+    assert rate(0.0) == 1
+    assert rate(1e-12) == -1
