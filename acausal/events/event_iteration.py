@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
@@ -100,6 +101,7 @@ def fire(
     rates: Rates | None = None,
     *,
     forced: Float[Array, " n_guards"] | None = None,
+    instant: ArrayLike = 0.0,
     keep: bool = False,
 ) -> After:
     """What becomes of states and discrete variables at an event; with derivatives in forward mode.
@@ -111,6 +113,8 @@ def fire(
         rates: how fast the conditions' numbers grow: one at zero that turns back at once, as a ball's height does, is
             then found not to have changed.
         forced: the values; None: the opposite of what conditions are.
+        instant: in seconds; if it is longer than zero, all conditions whose numbers pass zero within it become what
+            their rates say, in modes that agree with these rates.
         keep: whether the passes are.
     """
     assert at.d is not None
@@ -124,7 +128,7 @@ def fire(
 
     def one(state: tuple[_Going, Pass | None]) -> tuple[_Going, Pass | None]:
         going, passes = state
-        after, this = _pass(events, at, rates, going)
+        after, this = _pass(events, at, rates, instant, going)
         if keep:
             passes = jax.tree.map(lambda a, v: a.at[going.n].set(v), passes, this)
         return after, passes
@@ -153,7 +157,9 @@ def after_pass(events: Events, at: Values, this: Pass) -> tuple[Array, Array]:
     return jumped(events, now._replace(d=d), before), d
 
 
-def _pass(events: Events, at: Values, rates: Rates | None, going: _Going) -> tuple[_Going, Pass]:
+def _pass(
+    events: Events, at: Values, rates: Rates | None, instant: ArrayLike, going: _Going
+) -> tuple[_Going, Pass]:
     """One more pass.
 
     A condition that has come true and set what it reads is what its number says from then on.
@@ -169,10 +175,13 @@ def _pass(events: Events, at: Values, rates: Rates | None, going: _Going) -> tup
         true = (found > 0.5) & (going.d < 0.5)
         band = band.at[jnp.where(true[condition] & true[edge], condition, n)].set(-1.0, mode="drop")
     if rates is not None and n:
-        look = partial(_switched, events, band, forced, rates, *without_derivatives((x, found)))
-        forced = lax.cond(done & ~looked, look, lambda: forced)
+        behind = at._replace(x=x, d=found)
+        look = partial(
+            _switched, events, *without_derivatives((behind, band, forced)), rates, instant
+        )
+        forced, band = lax.cond(done & ~looked, look, lambda: (forced, band))
         looked = looked | done
-        done = done & jnp.all(forced == going.forced)
+        done = done & jnp.all((forced == going.forced) & equal(band, going.band))
     return _Going(x, d, band, forced, looked, done, converged, going.n + 1), this
 
 
@@ -213,11 +222,17 @@ def once_more(
     forced: Float[Array, " n_guards"],
     k: ArrayLike = 0,
     initial: ArrayLike = 0.0,
+    numbers: Float[Array, " n_guards"] | None = None,
 ) -> Float[Array, " n_discrete"]:
-    """Discrete variables from those of the iteration before, by number ``k``; other arguments as for `iterate`."""
+    """Discrete variables from those of the iteration before, by number ``k``; other arguments as for `iterate`.
+
+    ``numbers`` are those of conditions, where they are known.
+    """
     n, at, k = events.n_guards, before._replace(d=d), jnp.asarray(k)
-    g = guards(events, at, before)
-    if events.timed.any():  # one whose time comes with the event is what it is just behind it
+    g = guards(events, at, before) if numbers is None else numbers
+    if (
+        numbers is None and events.timed.any()
+    ):  # one whose time comes with the event is what it is just behind it
         behind = jnp.asarray(at.t) + COINCIDE * jnp.abs(at.t)
         there = guards(events, at._replace(t=behind), before, timed=True)
         g = jnp.where(events.timed, there, g)
@@ -233,12 +248,37 @@ def once_more(
 
 
 def _switched(
-    events: Events, band: Array, forced: Array, rates: Rates, x: Array, d: Array
-) -> Array:
-    """What conditions within their band are just behind the event: what their rates say."""
-    number, rate = lax.stop_gradient(rates(x, d))
-    at_zero = (jnp.abs(number) <= band) & (rate != 0) & jnp.isfinite(rate) & ~events.timed
-    return jnp.where(at_zero, (rate > 0).astype(forced.dtype), forced)
+    events: Events, behind: Values, band: Array, forced: Array, rates: Rates, instant: ArrayLike
+) -> tuple[Array, Array]:
+    """What conditions within their band are just behind the event: what their rates say; and the band.
+
+    With an ``instant``, modes are found that agree with the rates in these modes, as in `iterate`: they solve a linear
+    complementarity problem. Conditions that read what an event resets take no part, as they would slide along zero
+    unseen.
+    """
+    assert behind.d is not None
+    n, x, by_rates = events.n_guards, behind.x, jnp.asarray(instant) > 0
+    free = by_rates & ~np.isin(np.arange(n), events.resets[:, 0])
+
+    def goes_on(state: tuple[Array, ...]) -> Array:
+        _, k, same, *_ = state
+        return (k == 0) | (by_rates & ~same & (k < ALL_AT_ONCE + ONE_BY_ONE))
+
+    def body(state: tuple[Array, ...]) -> tuple[Array, ...]:
+        d, k, *_ = state
+        number, rate = lax.stop_gradient(rates(x, d))
+        near = jnp.maximum(band, jnp.where(free, instant * jnp.abs(rate), -1.0))
+        at_zero = (jnp.abs(number) <= near) & (rate != 0) & jnp.isfinite(rate) & ~events.timed
+        found = jnp.where(at_zero, (rate > 0).astype(forced.dtype), forced)
+        wide = jnp.where(at_zero, jnp.inf, band)
+        number = jnp.where(events.timed, d[:n] - 0.5, number)  # as it is
+        new = once_more(events, behind, d, wide, found, k, numbers=number)
+        return new, k + 1, jnp.all(equal(new, d)), found, wide
+
+    start = behind.d, jnp.asarray(0), jnp.array(False), forced, band
+    _, _, same, found, wide = lax.while_loop(goes_on, body, start)
+    solved = by_rates & same
+    return jnp.where(solved | ~by_rates, found, forced), jnp.where(solved, wide, band)
 
 
 def equal(a: Array, b: Array) -> Array:

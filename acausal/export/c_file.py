@@ -35,9 +35,9 @@ _MATH = """acos asin atan atan2 ceil cos cosh exp expm1 fabs floor fmax fmin fmo
 nearbyint pow remainder round signbit sin sinh sqrt tan tanh tgamma lgamma erf erfc cbrt trunc real"""
 
 _OWN = """all_finite attempt came_true condition_rates conditions copy end_with_event equal excess factor fill_d fill_p
-fill_x find_due find_edge fire force is_ahead iterate jacobian_column jumped look look_at_points limits lu_factor
-lu_solve maximum minimum next_length outputs rates recalibrate resets same signum solve_stage strict switched tangent
-ticks timed updated within_limits x u y p d t m h Model Status"""
+fill_x find_due find_edge fire force is_ahead is_reset iterate jacobian_column jumped look look_at_points limits
+lu_factor lu_solve maximum minimum next_length once_more outputs rates recalibrate resets same signum solve_stage strict
+switched tangent ticks timed updated within_limits x u y p d t m h Model Status"""
 
 RESERVED = frozenset(f"{_KEYWORDS} {_MATH} {_OWN}".split())
 """Words of C, of its mathematics, and of the functions in a model's file."""

@@ -56,6 +56,7 @@ from acausal.simulation.stability import (
     modes as modes,
 )
 from acausal.simulation.steps import (
+    BY_RATES as BY_RATES,
     CHATTERING as CHATTERING,
     DEADBAND_GROWTH as DEADBAND_GROWTH,
     NEAR as NEAR,

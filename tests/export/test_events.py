@@ -16,6 +16,7 @@ import acausal as ac
 from acausal.components import rotational as rot
 from acausal.export.c_text import events
 from tests.simulation.steps.test_chattering import Level
+from tests.support.bridges import bridge
 from tests.support.exported_c import ExportedC
 from tests.support.fmus import Unpacked, need_fmpy
 from tests.support.hybrid import Ball, Sampled, Step, Thermostat, ball_height
@@ -145,6 +146,21 @@ def test_a_model_that_bounces_for_ever_is_named(name: str, tmp_path: Path) -> No
     status = [model.step(0.5) for _ in range(10)]
     chattering = int(model.header.split("_CHATTERING = ")[1].split(",")[0])
     assert chattering in status
+
+
+@pytest.mark.slow
+def test_a_bridge_at_rest_begins_to_conduct(tmp_path: Path) -> None:
+    """All its conditions have numbers that are zero; see tests/simulation/steps/test_bridges.py."""
+    case = Case(lambda: bridge(L=3e-4, phase=0.0), 2e-3, 1e-4, "kvaerno3")
+    model = ExportedC(case.system, tmp_path, solver=case.solver)
+    assert model.call("begin") == 0
+    found = [model.x.copy()]
+    for _ in case.t[1:]:
+        assert model.step(case.dt) == 0
+        found.append(model.x.copy())
+    expected = case.run(rtol=1e-10, atol=1e-11, solver="stiff")
+    exact = np.stack([np.asarray(expected[name]) for name in case.system.states], 1)
+    np.testing.assert_allclose(np.stack(found), exact, atol=1e-3 * np.abs(exact).max())
 
 
 # -- FMUs ------------------------------------------------------------------------------------------

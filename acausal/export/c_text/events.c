@@ -15,59 +15,87 @@ static void copy(const real *from, real *to, int n) {
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
 
+/* Discrete variables from those of the iteration before, by number k, and the conditions' numbers: 1 if nothing changes.
+   Those within their band of zero become what m->e.forced says. At first all that disagree change at once, later the
+   first of them alone, and what is zero but for rounding stays. */
+static int once_more(Model *m, const real t, const real *u, const real *number, const real *band, const int k,
+                     const real initial) {
+    const int tens = k / DOUBTED < 6 ? k / DOUBTED : 6;
+    const real rounding = tens ? pow(R(10.0), (real)(tens - 13)) : (real)-1;
+    int others = 1;
+    for (int i = 0; i < GUARDS; i++) {
+        const real g = number[i];
+        int holds = strict[i] ? g > 0 : g >= 0;
+        if (fabs(g) <= rounding) holds = m->d[i] > R(0.5);
+        if (k < FORCED && fabs(g) <= band[i]) holds = m->e.forced[i];
+        if (ticks[i] && initial > 0) holds = 0;
+        m->e.holds[i] = (real)holds;
+        if (m->e.holds[i] != m->d[i]) {
+            if (!others && k >= ALL_AT_ONCE) m->e.holds[i] = m->d[i];
+            others = 0;
+        }
+    }
+    updated(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.holds, initial, m->e.next_d);
+    const int done = equal(m->e.next_d, m->d, DISCRETE);
+    copy(m->e.next_d, m->d, DISCRETE);
+    return done;
+}
+
 /* Discrete variables that agree with all values, from m->x, m->d and those before; 0 if there are none.
-   Conditions whose time comes with the event are what they are just behind it, those within m->e.band of zero become
-   what m->e.forced says. At first all that disagree change at once, later
-   the first of them alone, and what is zero but for rounding stays. */
+   Conditions whose time comes with the event are what they are just behind it. */
 static int iterate(Model *m, const real t, const real *u, const real initial) {
     for (int k = 0; k < ALL_AT_ONCE + ONE_BY_ONE; k++) {
-        const int tens = k / DOUBTED < 6 ? k / DOUBTED : 6;
-        const real rounding = tens ? pow(R(10.0), (real)(tens - 13)) : (real)-1;
-        int others = 1;
         const real behind = t + COINCIDE * fabs(t);
         if (ANY_TIMED) conditions(m, behind, m->x, u, m->e.x_before, m->e.d_before, m->e.holds);
         conditions(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.number);
-        for (int i = 0; i < GUARDS; i++) {
-            const real g = timed[i] ? m->e.holds[i] : m->e.number[i];
-            int holds = strict[i] ? g > 0 : g >= 0;
-            if (fabs(g) <= rounding) holds = m->d[i] > R(0.5);
-            if (k < FORCED && fabs(g) <= m->e.band[i]) holds = m->e.forced[i];
-            if (ticks[i] && initial > 0) holds = 0;
-            m->e.holds[i] = (real)holds;
-            if (m->e.holds[i] != m->d[i]) {
-                if (!others && k >= ALL_AT_ONCE) m->e.holds[i] = m->d[i];
-                others = 0;
-            }
-        }
-        updated(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.holds, initial, m->e.next_d);
-        const int done = equal(m->e.next_d, m->d, DISCRETE);
-        copy(m->e.next_d, m->d, DISCRETE);
-        if (done) return 1;
+        for (int i = 0; i < GUARDS; i++)
+            if (timed[i]) m->e.number[i] = m->e.holds[i];
+        if (once_more(m, t, u, m->e.number, m->e.band, k, initial)) return 1;
     }
     return 0;
 }
 
-/* A condition at zero becomes what its rate says; 0 if that was known. */
-static int switched(Model *m, const real t, const real *u, const real *along_u) {
-    int changed = 0;
-    rates(m, t, m->x, u, m->e.dx_begin);
-    conditions(m, t, m->x, u, m->x, m->d, m->e.number);
-    condition_rates(m, t, m->x, u, m->e.dx_begin, along_u, m->e.rate);
-    for (int i = 0; i < GUARDS; i++) {
-        const real rate = m->e.rate[i];
-        if (timed[i] || !(fabs(m->e.number[i]) <= m->e.band[i]) || !isfinite(rate) || rate == 0) continue;
-        if (m->e.forced[i] != (rate > 0)) changed = 1;
-        m->e.forced[i] = rate > 0;
+static int is_reset(const int condition) {
+    for (int i = 0; i < RESETS; i++)
+        if (resets[i][0] == condition) return 1;
+    return 0;
+}
+
+/* A condition at zero becomes what its rate says; 0 if that was known. With an instant, all that pass zero within it do,
+   in modes that agree with their rates; but for those that read what an event resets. */
+static int switched(Model *m, const real t, const real *u, const real *along_u, const real instant) {
+    const real behind = t + 16 * ROUNDING / COINCIDE * instant; /* inputs and known times may bend at t */
+    int changed = 0, solved = 0;
+#if EDGES
+    if (instant > 0) find_edge(m, APART(fabs(t)));
+#endif
+    for (int k = 0; !solved && k < (instant > 0 ? ALL_AT_ONCE + ONE_BY_ONE : 1); k++) {
+        rates(m, behind, m->x, u, m->e.dx_begin);
+        conditions(m, behind, m->x, u, m->x, m->d, m->e.number);
+        condition_rates(m, behind, m->x, u, m->e.dx_begin, along_u, m->e.rate);
+        for (int i = 0; i < GUARDS; i++) {
+            const real rate = m->e.rate[i], within = instant > 0 && !is_reset(i) ? instant * fabs(rate) : (real)-1;
+            m->e.wide[i] = m->e.band[i];
+            if (timed[i]) m->e.number[i] = m->d[i] - R(0.5); /* as it is */
+            if (timed[i] || !(fabs(m->e.number[i]) <= fmax(m->e.band[i], within)) || !isfinite(rate) || rate == 0) continue;
+            if (m->e.forced[i] != (rate > 0)) changed = 1;
+            m->e.forced[i] = rate > 0;
+            m->e.wide[i] = INFINITY;
+        }
+        if (instant > 0) solved = once_more(m, t, u, m->e.number, m->e.wide, k, 0);
     }
-    return changed;
+    if (instant > 0) copy(m->e.d_before, m->d, DISCRETE);
+    if (solved) copy(m->e.wide, m->e.band, GUARDS);
+    return changed || solved;
 }
 
 static int came_true(const Model *m, const int place) {
     return m->d[place] > R(0.5) && m->e.d_before[place] < R(0.5);
 }
 
-/* An event at m->x, m->d: all is found anew until nothing changes. Without along_u rates are not looked at. */
-static Status fire(Model *m, const real t, const real *u, const real *along_u) {
+/* An event at m->x, m->d: all is found anew until nothing changes. Without along_u rates are not looked at; see
+   switched for the instant. */
+static Status fire(Model *m, const real t, const real *u, const real *along_u, const real instant) {
     int looked = !along_u;
     for (int pass = 0; pass < PASSES; pass++) {
         copy(m->x, m->e.x_before, STATES);
@@ -80,7 +108,7 @@ static Status fire(Model *m, const real t, const real *u, const real *along_u) {
             if (came_true(m, resets[i][0]) && came_true(m, resets[i][1])) m->e.band[resets[i][0]] = -1;
         if (done && !looked) {
             looked = 1;
-            done = !switched(m, t, u, along_u);
+            done = !switched(m, t, u, along_u, instant);
         }
         if (done) return STATUS_OK;
     }
@@ -220,7 +248,8 @@ static Status end_with_event(Model *m, const real *u, const real *along_u, const
     copy(m->e.x_end, m->x, STATES);
     copy(m->d, m->e.d_last, DISCRETE);
     for (int i = 0; i < GUARDS; i++) m->e.touched[i] = m->e.band[i];
-    const Status status = fire(m, m->time, u, along_u);
+    const int near = m->time - m->e.last_event < NEAR * span, too_many = near && m->e.chattering + 1 >= CHATTERING;
+    const Status status = fire(m, m->time, u, along_u, too_many ? COINCIDE * fmax(fabs(m->time), span) : 0);
     if (status) return status;
     /* an event that rounding has made changes nothing: the number must go farther next time */
     const int moved = !searched || !equal(m->d, m->e.d_last, DISCRETE) || !equal(m->x, m->e.x_end, STATES);
@@ -230,10 +259,10 @@ static Status end_with_event(Model *m, const real *u, const real *along_u, const
         m->e.deadband[i] = moved ? 0 : m->e.touched[i] >= 0 ? farther : m->e.deadband[i];
     }
     if (moved) {
-        m->e.chattering = m->time - m->e.last_event < NEAR * span ? m->e.chattering + 1 : 0;
+        m->e.chattering = near ? m->e.chattering + 1 : 0;
         m->e.last_event = m->time;
     }
-    return m->e.chattering >= CHATTERING ? STATUS_CHATTERING : STATUS_OK;
+    return m->e.chattering >= CHATTERING + BY_RATES ? STATUS_CHATTERING : STATUS_OK;
 }
 
 /* Divided at events. */
@@ -304,7 +333,7 @@ Status model_begin(Model *m) {
     copy(m->d, m->e.d_before, DISCRETE);
     if (!iterate(m, m->time, m->u, 1)) return STATUS_EVENT_ITERATION;
     force(m, m->time, m->u, COINCIDE * fabs(m->time));
-    return fire(m, m->time, m->u, NULL);
+    return fire(m, m->time, m->u, NULL, 0);
 }
 
 Status model_event(Model *m) {
@@ -319,7 +348,7 @@ Status model_event(Model *m) {
         m->e.usual[i] = 0;
     }
     for (int i = 0; i < INPUTS; i++) m->e.along_u[i] = 0;
-    return fire(m, m->time, m->u, m->e.along_u);
+    return fire(m, m->time, m->u, m->e.along_u, 0);
 }
 
 Status model_conditions(Model *m) {

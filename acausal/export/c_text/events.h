@@ -9,7 +9,7 @@ typedef struct {
     model_real number[5 * MODEL_CONDITIONS + 1], rate[MODEL_CONDITIONS + 1], due[MODEL_CONDITIONS + 1],
         rounding[MODEL_CONDITIONS + 1];
     model_real band[MODEL_CONDITIONS + 1], touched[MODEL_CONDITIONS + 1], deadband[MODEL_CONDITIONS + 1],
-        usual[MODEL_CONDITIONS + 1];
+        usual[MODEL_CONDITIONS + 1], wide[MODEL_CONDITIONS + 1];
     model_real scale[MODEL_CONDITIONS + 1], over[MODEL_CONDITIONS + 1], holds[MODEL_CONDITIONS + 1];
     int later[MODEL_CONDITIONS + 1], forced[MODEL_CONDITIONS + 1], chattering;
     model_real last_event, d_before[MODEL_DISCRETE], d_last[MODEL_DISCRETE], next_d[MODEL_DISCRETE];

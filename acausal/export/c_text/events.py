@@ -26,7 +26,7 @@ from acausal.events import (
     updated,
 )
 from acausal.export.vector import ParameterVector
-from acausal.simulation import CHATTERING, DEADBAND_GROWTH, NEAR
+from acausal.simulation import BY_RATES, CHATTERING, DEADBAND_GROWTH, NEAR
 
 ARGUMENTS: Mapping[str, tuple[tuple[str, ...], str]] = {
     "conditions": (("x_before", "d_before"), "number"),
@@ -76,6 +76,7 @@ def constants() -> Iterator[str]:
     counts = {
         "TRIES": TRIES,
         "CHATTERING": CHATTERING,
+        "BY_RATES": BY_RATES,
         "PASSES": PASSES,
         "ALL_AT_ONCE": ALL_AT_ONCE,
         "DOUBTED": DOUBTED,

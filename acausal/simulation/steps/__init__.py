@@ -5,6 +5,7 @@ of models without events.
 """
 
 from acausal.simulation.steps.between_events import (
+    BY_RATES as BY_RATES,
     CHATTERING as CHATTERING,
     DEADBAND_GROWTH as DEADBAND_GROWTH,
     NEAR as NEAR,

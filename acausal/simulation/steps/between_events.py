@@ -42,6 +42,9 @@ from acausal.simulation.steps.simultaneous_events import follow_in_turn
 CHATTERING = 12
 """So many events in sequence, each within `NEAR` of the one before: the model slides, or bounces for ever."""
 
+BY_RATES = 4
+"""So many events more are tried before that counts as certain, with conditions at zero decided by their rates."""
+
 NEAR = 1e-10
 """Of the span of a run: what counts as no time between two events."""
 
@@ -167,6 +170,18 @@ def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
     )
 
 
+def instant(problem: Integration, state: EventState, t: Array) -> Float[Array, ""]:
+    """Within what time conditions at zero are decided by their rates at an event: none, but as one of too many."""
+    too_many = _near(problem, state, t) & (state.chattering + 1 >= CHATTERING)
+    largest = jnp.maximum(jnp.abs(t), problem.end - problem.begin)
+    return lax.stop_gradient(jnp.where(too_many, COINCIDE * largest, 0.0))
+
+
+def _near(problem: Integration, state: EventState, t: Array) -> Bool[Array, ""]:
+    """Whether no time has gone by since the last event."""
+    return t - state.last < NEAR * (problem.end - problem.begin)
+
+
 def look_within(
     method: Any,
     held: Integration,
@@ -261,7 +276,8 @@ def _follow(problem: Integration, row: Row, end: Reach) -> tuple[Float[Array, ""
         if problem.forward and problem.watched.n_guards > 1:
             return follow_in_turn(problem, row, end, row.d)
         at = values_at(problem, end.t, end.x, row.d)
-        return end.t, fire(problem.watched, at, row.band, rates_at(problem, end.t))
+        rates = rates_at(problem, end.t, row)
+        return end.t, fire(problem.watched, at, row.band, rates, instant=row.instant)
 
     if problem.first is None:
         return event()
@@ -291,7 +307,6 @@ def after(
 ) -> EventState:
     """What belongs to events behind a step."""
     d, t = landing.d, landing.t
-    span = problem.end - problem.begin
     moved = jnp.any(d != state.d) | jnp.any(landing.x != made.x) | (row.kind != STATE)
     deadband = jnp.where(
         row.band >= 0, jnp.maximum(DEADBAND_GROWTH * state.deadband, row.band), state.deadband
@@ -308,7 +323,7 @@ def after(
         (landing.x, d),
         seen.grazes & (row.kind == STATE),
     )
-    near = happened & (t - state.last < NEAR * span)
+    near = happened & _near(problem, state, t)
     chattering = jnp.where(happened, jnp.where(near, state.chattering + 1, 0), state.chattering)
     last = jnp.where(happened, lax.stop_gradient(t), state.last)
     peeked = (seen.part < 1) & ~seen.doubted | (state.peeked & ~seen.ok)

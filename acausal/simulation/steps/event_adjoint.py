@@ -51,7 +51,8 @@ def through_event(
         if events.n_guards > 1:
             return _through_turns(of_moved, own, row, end, then, behind)
         at = values_at(problem, end.t, end.x, row.d)
-        after = fire(events, at, row.band, rates_at(problem, end.t), keep=True)
+        rates = rates_at(problem, end.t, row)
+        after = fire(events, at, row.band, rates, instant=row.instant, keep=True)
         return _through_passes(of_moved, own, end.t, after, behind)
 
     if problem.first is None:
@@ -126,7 +127,7 @@ def _through_turns(
     """The cotangents before an event, from those behind it: of each condition in turn, see `simultaneous_events`."""
     problem = of_moved(own)[1]
     events = problem.watched
-    rates = rates_at(problem, end.t)
+    rates = rates_at(problem, end.t, row)
     last = simultaneous_events.count(row) - 1
     most = min(simultaneous_events.MOST, events.n_guards)
     none = jnp.zeros_like(last)
@@ -135,7 +136,8 @@ def _through_turns(
         i, x, d = state.i, state.xs[state.i], state.ds[state.i]
         turn = simultaneous_events.turn(row, d, i, state.together)
         at = values_at(problem, end.t, x, d)
-        event = fire(events, at, row.band, turn.rates(rates), forced=turn.forced, keep=True)
+        given: dict[str, Any] = {"forced": turn.forced, "instant": row.instant, "keep": True}
+        event = fire(events, at, row.band, turn.rates(rates), **given)
 
         def onwards() -> _Turns:
             after = event.x, event.d

@@ -199,11 +199,12 @@ def advance(
         row = Row(
             c.t, lax.stop_gradient(aim.h), stop.kind, stop.which, c.next, c.ahead, made.x, made.row
         )
-        if c.events is not None:
-            row = row._replace(x=c.x, d=c.events.d, band=stop.band)
         begins = RESTART if seen is not None else EDGE
         happens = ok & (stop.kind >= begins) & runs
         t = jnp.where(ok, jnp.where(aim.to_stop, stop.t, c.t + aim.h), c.t)
+        if c.events is not None:
+            instant = between_events.instant(problem, c.events, t)
+            row = row._replace(x=c.x, d=c.events.d, band=stop.band, instant=instant)
         landing = Landing(t, jnp.where(ok, made.x, c.x), made.memory, Counts.of())
         if seen is not None:
             landing = between_events.land(
@@ -233,7 +234,8 @@ def advance(
         reached, events = landing.t >= problem.end, None
         if c.events is not None and seen is not None:
             events = between_events.after(problem, c.events, row, made, seen, landing, happens)
-            why = jnp.where(events.chattering >= between_events.CHATTERING, CHATTERS, why)
+            without_end = between_events.CHATTERING + between_events.BY_RATES
+            why = jnp.where(events.chattering >= without_end, CHATTERS, why)
             why = jnp.where(landing.converged, why, NOT_CONVERGED)
             reached = reached & landing.converged
         if problem.until_stiff:
@@ -350,7 +352,8 @@ def row_like(method: Any, problem: Integration, progress: LoopState) -> Row:
     p = progress
     made = eqx.filter_eval_shape(method.attempt, problem.held(p.d), p.memory, p.t, p.memory.h)
     band = None if problem.events is None else jnp.zeros(problem.events.n_guards, p.t.dtype)
-    return Row(p.t, p.t, p.next, p.next, p.next, p.ahead, p.x, made.row, p.d, band)
+    instant = None if band is None else p.t
+    return Row(p.t, p.t, p.next, p.next, p.next, p.ahead, p.x, made.row, p.d, band, instant)
 
 
 def _kinds(problem: Integration) -> Int[Array, " n_breaks_1"]:

@@ -32,8 +32,8 @@ class Row(NamedTuple):
         ahead: the first of the known times at which steps end that lies behind its start.
         x: the state at its end; with events, which may change it there, that at its start.
         own: what the method needs.
-        d: discrete variables at its start. band: the conditions that change at its end; see `fire`. None without
-            events.
+        d: discrete variables at its start. band: the conditions that change at its end, and instant: whether rates
+            decide there; see `fire`. None without events.
     """
 
     t: Float[Array, ""]
@@ -46,6 +46,7 @@ class Row(NamedTuple):
     own: Any = ()
     d: Any = None
     band: Any = None
+    instant: Any = None
 
 
 class Reach(NamedTuple):
@@ -171,12 +172,13 @@ def values_at(problem: Integration, t: Array, x: Array, d: Array) -> Values:
     return problem.held(d).field.at(t).values(x)
 
 
-def rates_at(problem: Integration, t: Array) -> Rates:
-    """The conditions' numbers at a time, and how fast they grow, for states and discrete variables.
+def rates_at(problem: Integration, t: Array, row: Row) -> Rates:
+    """The conditions' numbers at the end of a step, and how fast they grow, for states and discrete variables.
 
-    Without derivatives.
+    Without derivatives. Where rates decide, they are those behind it: inputs and known times may bend there.
     """
     problem, t = without_derivatives((problem, t))
+    t = t + jnp.where(row.instant > 0, problem.apart(t), 0.0)
     events = problem.watched
 
     def rates(x: Array, d: Array) -> tuple[Array, Array]:

@@ -99,7 +99,7 @@ def follow_in_turn(
     problem: Integration, row: Row, end: Reach, d: Array
 ) -> tuple[Float[Array, ""], After]:
     """Time and values behind an event, with derivatives in forward mode."""
-    rates = rates_at(problem, end.t)
+    rates = rates_at(problem, end.t, row)
     n = count(row)
 
     def one(state: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -109,7 +109,9 @@ def follow_in_turn(
         later = until(problem, row, guard_of(row, k - 1), t, x, d_now)
         t, x = either(k > 1, later, (t, x))
         at = values_at(problem, t, x, d_now)
-        after = fire(problem.watched, at, row.band, own.rates(rates), forced=own.forced)
+        after = fire(
+            problem.watched, at, row.band, own.rates(rates), forced=own.forced, instant=row.instant
+        )
         fits = fits & still_wait(problem, row, own, t, after.x, after.d)
         first = k == 0
         whole = either(first, after, whole)
