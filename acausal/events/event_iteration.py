@@ -230,9 +230,8 @@ def once_more(
     """
     n, at, k = events.n_guards, before._replace(d=d), jnp.asarray(k)
     g = guards(events, at, before) if numbers is None else numbers
-    if (
-        numbers is None and events.timed.any()
-    ):  # one whose time comes with the event is what it is just behind it
+    if numbers is None and events.timed.any():
+        # one whose time comes with the event is what it is just behind it
         behind = jnp.asarray(at.t) + COINCIDE * jnp.abs(at.t)
         there = guards(events, at._replace(t=behind), before, timed=True)
         g = jnp.where(events.timed, there, g)

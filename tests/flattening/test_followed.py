@@ -100,7 +100,6 @@ def test_what_jumps_elsewhere_is_an_event_with_derivatives() -> None:
         (lambda x: x, "sources[1].x"),
         (lambda x: ac.where(x > 0.5, x, 0), "sources[1].x"),
         (lambda _: ac.sin(ac.time), "time"),
-        (lambda x: ac.table([0.0, 1.0, 2.0], [0.0, 1.0, 0.0])(x), "sources[1].x"),
     ],
 )
 def test_what_changes_between_events_is_refused(jump: Jump, by: str) -> None:
