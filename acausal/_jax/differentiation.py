@@ -138,13 +138,14 @@ def _refuse(primals: tuple[Tree], tangents: tuple[Tree]) -> tuple[Tree, Tree]:
 
 
 def value_and_jacobian(
-    function: Callable[[Float[Array, " P"]], Float[Array, " ..."]],
-    at: Float[Array, " P"],
-    axis: int,
-) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
-    """A function's value and Jacobian, in forward mode; ``axis`` of the Jacobian belongs to the arguments."""
+    function: Callable[[Float[Array, " P"]], Result], at: Float[Array, " P"], axis: int
+) -> tuple[Result, Result]:
+    """A function's value, of one or more arrays, and Jacobian, in forward mode.
 
-    def push(direction: Float[Array, " P"]) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
+    ``axis`` of the Jacobian belongs to the arguments.
+    """
+
+    def push(direction: Float[Array, " P"]) -> tuple[Result, Result]:
         return jax.jvp(function, (at,), (direction,))
 
     return jax.vmap(push, out_axes=(None, axis))(jnp.eye(len(at), dtype=at.dtype))

@@ -18,16 +18,13 @@ from acausal._jax import value_and_jacobian
 from acausal.codegen.elimination import eliminate
 from acausal.codegen.instructions import ArrayFormula, SolveTornLoop
 from acausal.codegen.lower import ModuleValue
-from acausal.codegen.newton import Dense, Residual, root
+from acausal.codegen.newton import Block, Dense, Residual, root
 from acausal.codegen.reading import Arrays, compute, fill, read_elements
 from acausal.codegen.values import Packed, Values
 from acausal.modeling import time
 
 FEW = 12
 """The most unknowns that are eliminated in array operations; more take XLA too long to compile."""
-
-Block = Callable[[Array], tuple[Array, Array]]
-"""From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
 
 
 def solve_block(
@@ -46,7 +43,7 @@ def solve_block(
         if is_linear:
             r, jacobian = value_and_jacobian(residual, start, axis=-1)
             return -_solve(jacobian, r)
-        found, converged = root(Dense(residual, _solve), start, scale)
+        found, converged = root(Dense(block, _solve), start, scale)
         return jnp.where(converged, found, jnp.nan)
 
     start = jnp.zeros_like(guess) if is_linear else guess
@@ -57,7 +54,7 @@ def nearest(
     block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
 ) -> Float[Array, " m"]:
     """Tearing variables where the search for a root of a nonlinear block ends, whether or not they are a root."""
-    return root(Dense(lambda tears: block(tears)[1], _solve), guess, scale)[0]
+    return root(Dense(block, _solve), guess, scale)[0]
 
 
 def _tangent(linear: Residual, y: Float[Array, " m"]) -> Float[Array, " m"]:

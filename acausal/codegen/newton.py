@@ -22,9 +22,16 @@ Tolerance = dict[str, float]
 """By precision."""
 TOLERANCE: Tolerance = {"float64": 1e-10, "float32": 1e-5}
 STALLED: Tolerance = {"float64": 1e-6, "float32": 1e-3}
-"""Relative size of the last step, and of a step that is accepted although roundoff stalls descent."""
+"""Relative size of the last step, and of a step that is accepted although roundoff stalls descent.
+
+The last step changes what is computed from the unknowns by less than the latter: what is left is about its square.
+"""
+ROUNDED: Tolerance = {"float64": 1e-15, "float32": 5e-7}
+"""Relative size of a step that only rounds the unknowns."""
+UNSURE: Tolerance = {"float64": 1e-3, "float32": 1e-2}
+"""How much of anything computed, plus one, a step may change that is accepted although descent stalls."""
 SHRINKS = 0.9
-"""A step so small that is not this much shorter than the one before goes along a stair of rounded residuals."""
+"""A small step goes along a stair of rounded residuals if neither it nor they are this much smaller than before."""
 FIRST, SHORTEST = 0.1, 1e-7
 """Of the path: the first stride, and the shortest one before the search gives up."""
 STRIDES, CORRECTIONS = 400, 12
@@ -37,6 +44,8 @@ ALONE, ON_THE_WAY, AT_THE_END, DONE, LOST = 0, 1, 2, 3, 4
 
 Residual = Callable[[Array], Array]
 """From unknowns (m,) to residuals (k,)."""
+Block = Callable[[Array], tuple[Array, Array]]
+"""From unknowns (m,) to all that is computed from them (n,), and residuals (k,)."""
 
 
 class Jacobian(Protocol):
@@ -50,6 +59,10 @@ class Jacobian(Protocol):
         self, r: Float[Array, " k"], column: Float[Array, " k"], row: Float[Array, " m+1"]
     ) -> Float[Array, " m+1"]:
         """``z`` (m + 1,) with ``jacobian @ z[:-1] + column * z[-1] = r`` and ``row @ z = 0``."""
+        ...
+
+    def computed(self, dz: Float[Array, " m"]) -> tuple[Float[Array, " n"], Float[Array, " n"]]:
+        """All that is computed from the unknowns at the point, and what a step changes of it."""
         ...
 
 
@@ -70,36 +83,62 @@ class Dense:
     """Equations whose Jacobian is a matrix, found by differentiation.
 
     Attributes:
-        residual: of the equations. ``solve``: solves linear equations, as many as unknowns or fewer: from a
+        block: what the equations compute. ``solve``: solves linear equations, as many as unknowns or fewer: from a
             matrix (k, m) and right sides (k,) to (m,).
     """
 
-    residual: Residual
+    block: Block
     solve: Callable[[Array, Array], Array]
+
+    def residual(self, z: Array) -> Array:
+        """See `RootProblem`."""
+        return self.block(z)[1]
 
     def linearized(self, z: Array) -> tuple[Array, Matrix]:
         """The residuals and their Jacobian, which share their evaluation."""
-        r, jacobian = jax.lax.optimization_barrier(value_and_jacobian(self.residual, z, axis=-1))
-        return r, Matrix(jacobian, self.solve)
+        both = jax.lax.optimization_barrier(value_and_jacobian(self.block, z, axis=-1))
+        (values, r), (partials, jacobian) = both
+        return r, Matrix(jacobian, self.solve, values, partials)
 
 
 @dataclass(frozen=True)
 class Matrix:
-    """A Jacobian as a matrix."""
+    """A Jacobian as a matrix.
 
-    values: Array
+    Attributes:
+        entries: the matrix (k, m). ``solve``: see `Dense`.
+        values, partials: what is computed from the unknowns, (n,), and its derivatives, (n, m).
+    """
+
+    entries: Array
     solve: Callable[[Array, Array], Array]
+    values: Array
+    partials: Array
 
     def reach(self, sizes: Float[Array, " m"]) -> Float[Array, " k"]:
         """See `Jacobian`."""
-        return jnp.abs(self.values) @ sizes
+        return jnp.abs(self.entries) @ sizes
 
     def step(
         self, r: Float[Array, " k"], column: Float[Array, " k"], row: Float[Array, " m+1"]
     ) -> Float[Array, " m+1"]:
         """See `Jacobian`."""
-        above = jnp.concatenate([self.values, column[:, None]], axis=1)
+        above = jnp.concatenate([self.entries, column[:, None]], axis=1)
         return self.solve(jnp.concatenate([above, row[None]]), jnp.append(r, 0.0))
+
+    def computed(self, dz: Float[Array, " m"]) -> tuple[Float[Array, " n"], Float[Array, " n"]]:
+        """See `Jacobian`."""
+        return self.values, self.partials @ dz
+
+
+class _Linearized(NamedTuple):
+    """The residuals at a point, the largest change of each, the Newton step, and what `Jacobian.computed` gives."""
+
+    r: Array
+    reach: Array
+    step: Array
+    values: Array
+    changes: Array
 
 
 _State = tuple[Array, Array, Array, Array]
@@ -137,12 +176,13 @@ def root(
     def off(point: Array) -> Array:
         return equations.residual(point[:-1] * unit) - (1 - point[-1]) * first
 
-    def linearized(point: Array, direction: Array) -> tuple[Array, Array, Array]:
+    def linearized(point: Array, direction: Array) -> _Linearized:
         r, jacobian = equations.linearized(point[:-1] * unit)
         rest = r - (1 - point[-1]) * first
         sizes = units * (jnp.abs(point) + 1.0)
         reach = jacobian.reach(sizes[:-1]) + jnp.abs(first) * sizes[-1]
-        return rest, reach, jacobian.step(rest, first, direction / units) / units
+        step = jacobian.step(rest, first, direction / units)
+        return _Linearized(rest, reach, step / units, *jacobian.computed(step[:-1]))
 
     def go_on(w: _PathSearch) -> _PathSearch:
         walking = w.phase == ON_THE_WAY
@@ -179,7 +219,7 @@ def root(
 
 def _newton(
     residual: Residual,
-    linearized: Callable[[Array], tuple[Array, Array, Array]],
+    linearized: Callable[[Array], _Linearized],
     guess: Array,
     max_steps: Array,
 ) -> tuple[Array, Array]:
@@ -187,31 +227,39 @@ def _newton(
 
     A step that does not make the residual smaller is halved until it does. For this comparison every equation is
     divided by its partial derivatives, so that units do not matter. Where no part of the step helps, but the step is
-    small, only roundoff is left; otherwise the method is stuck. ``linearized`` gives, at a point, the residuals, the
-    largest change of each, and the Newton step.
+    small, only roundoff is left; otherwise the method is stuck. A step is as small as what it changes of all that is
+    computed from the unknowns: behind an amplifier, a small difference of them is large.
     """
 
     def advance(state: _State) -> _State:
         z, _, k, before = state
-        r, reach, step = linearized(z)
+        r, reach, step, values, changes = linearized(z)
         full = jnp.where(jnp.all(r == 0), 0.0, step)
         weight = 1 / jnp.where(reach > 0, reach, 1.0)
         size = _norm(weight * r)
+        amplified = _share(changes, values, STALLED[z.dtype.name])
 
-        def too_far(trial: tuple[Array, Array]) -> Array:
-            dz, new = trial
-            return ~(new < size) & ~_is_tiny(dz, z) & jnp.all(jnp.isfinite(dz))
+        def is_small(dz: Array, part: Array) -> Array:
+            tolerated = STALLED[dz.dtype.name]
+            return (_is_tiny(dz, z) & (part * amplified < tolerated)) | _is_tiny(dz, z, ROUNDED)
 
-        def halve(trial: tuple[Array, Array]) -> tuple[Array, Array]:
-            return trial[0] / 2, _norm(
-                weight * jax.lax.optimization_barrier(residual(z - trial[0] / 2))
-            )
+        def too_far(trial: tuple[Array, Array, Array]) -> Array:
+            dz, part, new = trial
+            return ~(new < size) & ~is_small(dz, part) & jnp.all(jnp.isfinite(dz))
 
-        dz, _ = jax.lax.while_loop(too_far, halve, (2 * full, jnp.inf * jnp.ones_like(size)))
-        there, stopped = _is_tiny(full, z), _is_tiny(dz, z)
+        def halve(trial: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+            dz, part, _ = trial
+            left = jax.lax.optimization_barrier(residual(z - dz / 2))
+            return dz / 2, part / 2, _norm(weight * left)
+
+        twice = jnp.full_like(size, 2.0)
+        dz, part, new = jax.lax.while_loop(too_far, halve, (2 * full, twice, jnp.inf * twice))
+        there, stopped = is_small(full, jnp.ones_like(part)), is_small(dz, part)
         length = _norm(full)
-        stalls = stopped | (length > SHRINKS * before)
-        arrived = there | (stalls & _is_tiny(full, z, STALLED))
+        on_stair = (part == 1) & (length > SHRINKS * before) & (new > SHRINKS * size)
+        is_sure = _share(changes, values, 1.0) < UNSURE[z.dtype.name]
+        stalls = (stopped | on_stair) & is_sure & _is_tiny(full, z, STALLED)
+        arrived = there | stalls
         stuck = stopped | ~jnp.all(jnp.isfinite(full))
         status = jnp.where(arrived, ARRIVED, jnp.where(stuck, STUCK, GOING))
         return z - jnp.where(there, full, dz), status, k + 1, length
@@ -232,3 +280,9 @@ def _norm(v: Array) -> Array:
 def _is_tiny(step: Array, at: Array, tolerance: Tolerance = TOLERANCE) -> Array:
     relative = tolerance[step.dtype.name]
     return jnp.all(jnp.abs(step) < relative * (jnp.abs(at) + relative))
+
+
+def _share(changes: Array, values: Array, least: float) -> Array:
+    """The largest change relative to values, or to the least of them; those that are not numbers do not count."""
+    shares = jnp.abs(changes) / (jnp.abs(values) + least)
+    return jnp.max(jnp.where(jnp.isnan(shares), 0.0, shares), initial=0.0)

@@ -84,10 +84,11 @@ def _matrix(pattern: Pattern) -> SparseMatrix:
 
 @dataclass(frozen=True)
 class _Jacobian:
-    """The Jacobian of a sparse loop at one point: the entries of its matrix."""
+    """The Jacobian of a sparse loop at one point: the entries of its matrix, and the unknowns."""
 
     matrix: SparseMatrix
     entries: Array
+    z: Array
 
     def reach(self, sizes: Array) -> Array:
         """See `newton.Jacobian`."""
@@ -98,6 +99,10 @@ class _Jacobian:
         both = jax.vmap(self.matrix.solve, (None, 0))(self.entries, jnp.stack([r, column]))
         last = -(row[:-1] @ both[0]) / (row[-1] - row[:-1] @ both[1])
         return jnp.append(both[0] - both[1] * last, last)
+
+    def computed(self, dz: Array) -> tuple[Array, Array]:
+        """See `newton.Jacobian`: nothing but the unknowns."""
+        return self.z, dz
 
 
 @dataclass(frozen=True)
@@ -111,7 +116,7 @@ class _Sparse:
     def linearized(self, z: Array) -> tuple[Array, _Jacobian]:
         """The residuals and their Jacobian."""
         r, entries = jax.lax.optimization_barrier((self.residual(z), self.entries(z)))
-        return r, _Jacobian(self.matrix, entries)
+        return r, _Jacobian(self.matrix, entries, z)
 
 
 _Functions = tuple[Callable[[Array], Array], Callable[[Array], Array]]

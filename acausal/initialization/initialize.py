@@ -415,7 +415,7 @@ def _roles(plan: InitializationProblem, jacobian: np.ndarray) -> list[str]:
 
 def _least_change(residual: Callable[[Array], Array], guess: Array) -> Array:
     """Newton's method with the smallest steps: a root near the guess even if there are many."""
-    return root(Dense(residual, _smallest), guess, max_steps=MAX_STEPS)[0]
+    return root(Dense(lambda x: (x, residual(x)), _smallest), guess, max_steps=MAX_STEPS)[0]
 
 
 def _smallest(jacobian: Float[Array, "k m"], r: Float[Array, " k"]) -> Float[Array, " m"]:

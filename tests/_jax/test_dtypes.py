@@ -94,10 +94,10 @@ def test_nonlinear_loops_are_solved_as_well_as_rounding_allows():
 
 
 def test_newton_knows_the_rounding():
-    def residual(z):
-        return jnp.stack([z[0] ** 3 - 2, z[1] * jnp.exp(z[1]) - z[0]])
+    def block(z):
+        return z, jnp.stack([z[0] ** 3 - 2, z[1] * jnp.exp(z[1]) - z[0]])
 
-    found, converged = root(Dense(residual, jnp.linalg.solve), jnp.ones(2, jnp.float32))
+    found, converged = root(Dense(block, jnp.linalg.solve), jnp.ones(2, jnp.float32))
     assert converged
     assert found.dtype == jnp.float32
     assert float(found[0]) == pytest.approx(2 ** (1 / 3), rel=1e-6)

@@ -6,13 +6,15 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from acausal.codegen import newton
+from acausal.codegen.dense_loop import solve_block
 
 
 def root(residual, guess, scale=1.0):
-    of_guess = jax.jit(lambda z: newton.root(newton.Dense(residual, jnp.linalg.solve), z, scale))
-    return of_guess(guess)
+    block = lambda z: (z, residual(z))  # noqa: E731
+    return jax.jit(lambda z: newton.root(newton.Dense(block, jnp.linalg.solve), z, scale))(guess)
 
 
 def freudenstein_and_roth(z):
@@ -82,3 +84,33 @@ def test_side_by_side():
     z, arrived = jax.vmap(lambda g: root(freudenstein_and_roth, g))(guesses)
     assert bool(arrived.all())
     np.testing.assert_allclose(z, [[5, 4], [5, 4]], rtol=1e-6)
+
+
+@pytest.mark.parametrize("guess", [0.0, 1e-3])
+def test_a_small_difference_that_is_amplified(guess):
+    """The step is as small as a rounding beside the current, and volts in what is computed from it."""
+
+    def diode(v):
+        return 1e-6 * (jnp.exp(jnp.minimum(v / 0.04, 15)) * (1 + jnp.maximum(v / 0.04 - 15, 0)) - 1)
+
+    def block(z, gain):
+        difference = 1 - 1e3 * z[0]
+        v = (1 + gain) * difference
+        return jnp.stack([z[0], v]), jnp.stack([1e5 * (z[0] - diode(v)) - v])
+
+    def own(gain):
+        return brentq(lambda v: float(block([(1 - v / (1 + gain)) / 1e3], gain)[1][0]), 0, 1)
+
+    gains = jnp.array([1e2, 5e4, 1e5, 1e7, 1e9])
+    found = jax.vmap(lambda a: solve_block(lambda z: block(z, a), jnp.array([guess])))(gains)
+    roundings = 1e-10 + 1e-15 * gains
+    for gain, v, rounding in zip(gains, found[:, 1], roundings, strict=True):
+        assert float(v) == pytest.approx(own(gain), rel=float(rounding)), gain
+
+
+def test_an_amplified_jump_is_no_root():
+    def block(z):
+        v = 1e9 * (1 - 1e3 * z)
+        return v, v + 5 * jnp.sign(v)
+
+    assert np.isnan(solve_block(block, jnp.array([0.0]))).all()

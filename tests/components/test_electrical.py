@@ -1199,3 +1199,41 @@ def test_a_record_gives_parameters_to_others(tmp_path: Path) -> None:
     system = ac.compile(ac.load(file))
     resistance = system.observe("r.R_actual", 0.0, np.zeros(0), np.zeros(0), system.parameters())
     assert resistance == pytest.approx(2 * 100e3 / 50)
+
+
+class LogarithmicAmplifier(ac.Component):
+    """An amplifier of a high gain with a diode beside a resistor in its feedback, and a low-pass behind it."""
+
+    GAIN = 1e5
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.amplifier = el.VCV(gain=self.GAIN)
+        self.source = el.ConstantVoltage(V=1.0)
+        self.into, self.back, self.out = (el.Resistor(R=R) for R in (1e3, 1e5, 1e3))
+        self.diode = el.Diode()
+        self.capacitor = el.Capacitor(C=1e-6, v=ac.Start(0.0, fixed=True))
+        self.ground = el.Ground()
+        grounded = self.source.n, self.amplifier.p1, self.amplifier.n2, self.capacitor.n
+        self.connect(self.ground.p, *grounded)
+        self.connect(self.source.p, self.into.p)
+        self.connect(self.into.n, self.back.p, self.diode.p, self.amplifier.n1)
+        self.connect(self.back.n, self.diode.n, self.amplifier.p2, self.out.p)
+        self.connect(self.out.n, self.capacitor.p)
+
+
+def test_a_diode_around_an_amplifier_of_a_high_gain():
+    """Its voltage hangs on the input of the amplifier, 3 µV, beside 1 V of the source."""
+    gain = LogarithmicAmplifier.GAIN
+
+    def off(v):
+        diode = 1e-6 * (np.exp(v / 0.04) - 1) + v / 1e8
+        return (1 - v / (1 + gain)) / 1e3 - diode - v / 1e5
+
+    v = brentq(off, 0, 0.6)
+    system = ac.compile(LogarithmicAmplifier())
+    result = ac.simulate(system, 3e-3, rtol=1e-8, atol=1e-10)
+    np.testing.assert_allclose(result["diode.v"], v, rtol=1e-8)
+    np.testing.assert_allclose(result["back.v"], 1e5 * result["back.i"], rtol=1e-6)
+    charged = -v * gain / (1 + gain) * (1 - np.exp(-np.asarray(result.t) / 1e-3))
+    np.testing.assert_allclose(result["capacitor.v"], charged, atol=1e-6)
