@@ -13,8 +13,6 @@ from typing import Any
 import hypothesis
 import pytest
 
-from tests.support.mlir_contexts import share_contexts
-
 CACHE = "ACAUSAL_COMPILATION_CACHE"
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
 os.environ.setdefault("MPLBACKEND", "Agg")
@@ -77,8 +75,6 @@ def tier(item: pytest.Item) -> str:
 
 def pytest_collection_finish() -> None:
     """Tracing makes many objects: look for cycles less often, and not among all modules each time."""
-    if "jax" in sys.modules:
-        share_contexts()
     gc.set_threshold(20_000, 20, 20)
     leave_alone_what_stays()
 
