@@ -150,7 +150,7 @@ class Edges(LeavesCaches):
     def phases(self) -> tuple[ArrayFormula, ...]:
         """Those of the sines that conditions depend on, as far as they do not follow from time alone."""
         found: list[ArrayFormula] = []
-        for part in self._of_conditions:
+        for part in self._with_conditions():
             formula = part.formula
             if isinstance(formula, Accumulate):
                 continue
@@ -181,18 +181,13 @@ class Edges(LeavesCaches):
     @cached_property
     def _parts(self) -> tuple[_Part, ...]:
         """All formulas that the derivatives of the states and the conditions need, in order."""
-        conditions = tuple(_Part(c, is_condition=True) for c in self.conditions)
-        return *self._needed({*self.program.rate_sources, *self._read_by_conditions}), *conditions
+        return self._with_conditions(self.program.rate_sources)
 
-    @cached_property
-    def _of_conditions(self) -> tuple[_Part, ...]:
-        """Those that the conditions need."""
-        return *self._needed(self._read_by_conditions), *map(_Part, self.conditions)
-
-    @cached_property
-    def _read_by_conditions(self) -> set[int]:
-        """The arrays that conditions read, as they are now."""
-        return self.program.in_copy((s for c in self.conditions for s in c.sources), 0)
+    def _with_conditions(self, sources: Iterable[int] = ()) -> tuple[_Part, ...]:
+        """The conditions, and before them the formulas that they, and some arrays, need."""
+        read = self.program.in_copy((s for c in self.conditions for s in c.sources), 0)
+        conditions = (_Part(c, is_condition=True) for c in self.conditions)
+        return *self._needed({*sources, *read}), *conditions
 
     def _needed(self, sources: Iterable[int]) -> Iterator[_Part]:
         """The formulas of the program that some arrays need, in order."""

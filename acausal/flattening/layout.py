@@ -185,17 +185,18 @@ def lay_out(model: Component, *, watch: bool = False) -> tuple[Layout, tuple[Sta
     number: dict[int, int] = {}
     for i in range(len(components) - 1, -1, -1):  # children before parents
         component = components[i]
-        children = tuple((n, number[id(c)]) for n, c in component._node.children.items())
+        node = component._node
+        children = tuple((n, number[id(c._node)]) for n, c in node.children.items())
         key = _structure(component), children
         if key not in known:
             known[key] = len(forms)
             forms.append(_form(component))
-        form_of[i] = number[id(component)] = known[key]
+        form_of[i] = number[id(node)] = known[key]
         form = forms[known[key]]
-        charge("elements", len(form.variables) + len(form.parameters), component._node)
+        charge("elements", len(form.variables) + len(form.parameters), node)
 
-    nodes = {id(c._node): int(number[id(c)]) for c in components}
-    forms, statements = _with_statements(forms, nodes, _connected_signals(components, nodes), watch)
+    connected = _connected_signals(components, number)
+    forms, statements = _with_statements(forms, number, connected, watch)
 
     def base(sizes: list[int]) -> Integers:
         return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64)[form_of])])
@@ -213,31 +214,31 @@ def lay_out(model: Component, *, watch: bool = False) -> tuple[Layout, tuple[Sta
 
 
 def _connected_signals(
-    components: Sequence[Component], form: Mapping[int, int]
+    components: Sequence[Component], number: Mapping[int, int]
 ) -> Iterator[tuple[Hashable, Hashable]]:
     """Pairs of signals that are connected, each by the form of its owner and its name there."""
     for component in components:
         for ends in component._node.connections:
             if not isinstance(ends[0], Connector):
                 (a, first), (b, second) = map(owner_and_name, ends)
-                yield (form.get(id(a)), first), (form.get(id(b)), second)
+                yield (number.get(id(a)), first), (number.get(id(b)), second)
 
 
 def _with_statements(
     forms: list[Form],
-    form: Mapping[int, int],
+    number: Mapping[int, int],
     connected: Iterable[tuple[Hashable, Hashable]],
     watch: bool,
 ) -> tuple[list[Form], tuple[Stated, ...]]:
     """The forms with the hidden variables of their events, and what they state.
 
     Arguments:
-        form: the number of the form of each component, by the identity of its node. connected: signals.
+        number: that of the form of each component, by the identity of its node. connected: signals.
     """
 
     def variable(symbol: Any) -> Hashable:
-        is_own = isinstance(symbol, Reference) and id(symbol.owner) in form
-        return (form[id(symbol.owner)], symbol.path) if is_own else symbol
+        is_own = isinstance(symbol, Reference) and id(symbol.owner) in number
+        return (number[id(symbol.owner)], symbol.path) if is_own else symbol
 
     read = [read_statements(f.prototype, lambda p=f.prototype: equations_of(p), 1) for f in forms]
     pairs = list(zip(forms, read, strict=True))
