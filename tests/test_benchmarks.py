@@ -86,7 +86,7 @@ def counts():
     return json.loads(run.stdout.splitlines()[-1])
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 @pytest.mark.cases(fast=1)
 def test_sympy_is_asked_as_often_whatever_the_size(pair, counts):
     case, built = pair
@@ -178,8 +178,7 @@ def test_all_optimizers_find_a_minimum(name):
     np.testing.assert_allclose(x, 1.0, atol=1e-4)
 
 
-@pytest.mark.cases(slow=1)
-@pytest.mark.slow
+@pytest.mark.machines
 @pytest.mark.parametrize("name", peers.TASKS)
 def test_peers_agree(name):
     task = peers.TASKS[name](3)
@@ -189,7 +188,7 @@ def test_peers_agree(name):
     assert peers.measured("diffrax", task).keys() == {"first", "position", "again", "gradient"}
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_fleet_is_trained_and_swept_by_workers():
     run = subprocess.run(
         [sys.executable, "-m", "benchmarks.fleet", "--n", "4", "8", "--variants", "16"],
@@ -204,7 +203,7 @@ def test_a_fleet_is_trained_and_swept_by_workers():
     assert found["one_core"]["workers"] > 0
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_fleet_is_trained_on_from_files():
     run = subprocess.run(
         [sys.executable, "-m", "benchmarks.fleet", "--stream", "0.005"],

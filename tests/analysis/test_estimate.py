@@ -241,6 +241,7 @@ def test_states_and_a_parameter_of_a_pendulum_are_found(method):
     assert found["w"].shape == (501,)
 
 
+@pytest.mark.cases(slow=2)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["ekf", "ukf", "mhe"])
 def test_the_wheel_of_a_vehicle_is_seen_through_the_acceleration_of_its_body(method):

@@ -9,6 +9,7 @@ import pytest
 
 import acausal as ac
 from tests.support.hybrid import GRAVITY, Ball, Sampled
+from tests.support.slow import some_slow
 
 H, N, R, Q, K, SPREAD = 0.05, 41, 0.02, 0.3, 2.0, 0.4
 
@@ -71,8 +72,7 @@ def test_noise_is_fitted_through_events():
     assert ac.estimate(system, data, noise="fit", **given).log_likelihood > likelihood
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("method", ["ekf", "ukf", "enkf"])
+@pytest.mark.parametrize("method", some_slow(["ekf", "ukf", "enkf"], ["ukf"], ["ekf", "enkf"]))
 def test_a_ball_is_followed_through_its_bounces(method: str):
     """From a wrong start; in the air an error of speed becomes one of height, a bounce turns and shortens both."""
     system, t = ac.compile(Ball()), np.linspace(0.0, 1.6, 161)

@@ -115,7 +115,7 @@ def test_with_bounds_they_are_those_of_differences():
     np.testing.assert_allclose(jax.jacrev(found)(THETA), differences(found), rtol=1e-5, atol=1e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_gradients_of_a_nonlinear_horizon_are_those_of_differences():
     system = ac.compile(Pendulum(), check_units=False)
     truth = ac.simulate(system, 0.4, dt=0.02, x0={"phi": 2.5, "w": -1.0})

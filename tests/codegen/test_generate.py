@@ -291,7 +291,7 @@ def test_hash_seeds_do_not_change_the_code():
             stdout=subprocess.PIPE,
             text=True,
         )
-        for seed in ("0", "1", "12345")
+        for seed in ("0", "12345")
     ]
     expected = text()  # of this process, with a seed of its own
     assert len(expected) > 10_000

@@ -148,7 +148,7 @@ def test_a_model_that_bounces_for_ever_is_named(name: str, tmp_path: Path) -> No
     assert chattering in status
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_bridge_at_rest_begins_to_conduct(tmp_path: Path) -> None:
     """All its conditions have numbers that are zero; see tests/simulation/steps/test_bridges.py."""
     case = Case(lambda: bridge(L=3e-4, phase=0.0), 2e-3, 1e-4, "kvaerno3")
@@ -333,7 +333,7 @@ def test_examples_in_c(name: str, tmp_path: Path) -> None:
     assert np.sum(off.max(axis=1, initial=0) > 1e-9) <= 1
 
 
-@pytest.mark.cases(slow=2)
+@pytest.mark.cases(slow=1)
 @pytest.mark.filterwarnings(
     "ignore:export.fmu. steps of"
 )  # of a co-simulation that is not run here

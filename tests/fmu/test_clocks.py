@@ -104,7 +104,7 @@ def test_a_controller_computes_at_the_ticks_of_its_clock(clocked: Clocked, kind:
     np.testing.assert_allclose(run["part.y"], ys, atol=1e-12)
 
 
-@pytest.mark.cases(fast=2, slow=4)
+@pytest.mark.cases(fast=2, slow=2)
 @KINDS
 @pytest.mark.parametrize(
     ("clock", "more", "h", "shift"),
@@ -166,7 +166,7 @@ class Counted(ac.Component):
         return iter(())
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=1, slow=0)
 @KINDS
 def test_a_clock_of_one_fmu_triggers_that_of_another(clocked: Clocked, kind: Any) -> None:
     inputs = {"source.u": 1.0, "source.ask": 0, "sink.u": 0.0}
@@ -176,7 +176,7 @@ def test_a_clock_of_one_fmu_triggers_that_of_another(clocked: Clocked, kind: Any
     np.testing.assert_array_equal(np.asarray(run["sink.a"])[around], [0, 1, 1, 2, 2, 3])
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=1, slow=0)
 @KINDS
 def test_a_triggered_clock_takes_an_interval(clocked: Clocked, kind: Any) -> None:
     system = ac.compile(ac.FMU(clocked(), {"ask": 0.25}, kind=kind))
@@ -184,7 +184,8 @@ def test_a_triggered_clock_takes_an_interval(clocked: Clocked, kind: Any) -> Non
     np.testing.assert_array_equal(run["a"][1::2], [1, 2, 3, 4])
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(slow=1)
+@pytest.mark.slow
 @KINDS
 def test_gradients_go_through_what_clocks_compute(clocked: Clocked, kind: Any) -> None:
     path = clocked()

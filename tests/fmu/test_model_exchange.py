@@ -276,7 +276,7 @@ def test_gradients_move_events_whose_time_is_known(
         np.testing.assert_allclose(found[name], slope, rtol=2e-5, err_msg=name)
 
 
-@pytest.mark.cases(fast=0, slow=1)
+@pytest.mark.machines
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_indicators_whose_meaning_changes_with_the_mode_are_no_further_events(
     exported: Exported, fmi: str

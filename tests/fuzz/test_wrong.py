@@ -24,12 +24,12 @@ MAKERS: dict[str, tuple[Callable[[int, Path], Mutant], int]] = {
     "interface": (interface.mutant, 6000),
     "texts": (texts.mutant, 1000),
 }
-"""By kind: what makes the mutant of a seed, and how many there are. The slow tests try one in twelve of them."""
+"""By kind: what makes the mutant of a seed, and how many there are. The slow tests try one in twenty-four of them."""
 
 
 @pytest.mark.parametrize("name", MAKERS)
 @pytest.mark.parametrize(
-    "every", [pytest.param(12, marks=pytest.mark.slow), pytest.param(1, marks=pytest.mark.machines)]
+    "every", [pytest.param(24, marks=pytest.mark.slow), pytest.param(1, marks=pytest.mark.machines)]
 )
 def test_wrong_models_get_a_sentence(
     name: str, every: int, tmp_path: Path, record_property: Any

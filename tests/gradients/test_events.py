@@ -139,7 +139,7 @@ def kind_of(name: str) -> str:
     return kinds[list(HYBRIDS).index(name) % len(kinds)]
 
 
-@pytest.mark.cases(slow=3)
+@pytest.mark.cases(slow=2)
 @pytest.mark.parametrize("name", in_turn(HYBRIDS, 1, machines=DEAR))
 def test_gradients(name: str, record_property: Any) -> None:
     """Each model in reverse mode, and every third in forward mode, in one kind of steps."""

@@ -44,7 +44,7 @@ def test_oracles_are_there() -> None:
     assert len(NETLISTS) >= 63
 
 
-@pytest.mark.cases(fast=1, slow=6)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("name", NETLISTS)
 def test_an_export_is_the_system_of_the_netlist(name: str, tmp_path: Path) -> None:
     """In turn with the classes of the standard library, and with all classes in the file."""

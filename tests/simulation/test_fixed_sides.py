@@ -213,7 +213,7 @@ class Counted(ac.Component):
         yield ac.When(ac.sample(0.1, 0.25), ac.Eq(self.n, ac.pre(self.n) + 1))
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_delayed_held_input_divides_rows_of_models_with_events():
     system, ts = ac.compile(Counted()), np.arange(51) * 0.02
     us, late = np.sin(9 * ts), 0.013

@@ -9,6 +9,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks, electrical, thermal, translational
 from tests.support.parts import Equations, model
+from tests.support.slow import some_slow
 
 ON = {"fixed": True}
 
@@ -166,8 +167,7 @@ def lag():
     return ac.compile(made)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("solver", ["auto", "stiff"])
+@pytest.mark.parametrize("solver", some_slow(["auto", "stiff"], ["stiff"], ["auto"]))
 def test_the_gradient_by_the_time_of_an_edge(lag, solver):
     """Exact: each edge at t adds its height times 1 - exp(-(5 - t)/T) to the value at 5 s."""
     own = lag.parameters()

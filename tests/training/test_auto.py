@@ -298,7 +298,7 @@ class Sprung(ac.Component):
         self.connect(self.mass.flange_b, self.push.flange)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_beginnings_grow_where_no_state_is_measured_and_no_linear_law_explains() -> None:
     def hardening(s: jax.Array) -> jax.Array:
         return 200 * s + 3e5 * s**3

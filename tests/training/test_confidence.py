@@ -396,7 +396,7 @@ def test_a_start_that_a_law_can_take_is_said_and_widens_its_band(sizes: tuple[fl
     assert (miss < 4 * band.sigma[seen]).all()
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_start_that_is_trained_without_a_prior_is_said_to_be_taken_by_a_law() -> None:
     fit = ac.fit(cell(), cell_record(1.0, 0), ["v"], progress=False, x0="fit")
     assert fit.confidence().starts == {"charge": ("law",)}

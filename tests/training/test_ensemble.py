@@ -59,7 +59,7 @@ def test_every_member_is_the_training_of_its_seed():
     assert member.loss != trained().fits[0].loss
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_copies_answer_as_the_ensemble_and_its_fits(tmp_path):
     ensemble = pickle.loads(pickle.dumps(trained()))
     assert str(ensemble) == str(trained())

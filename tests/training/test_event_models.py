@@ -58,7 +58,7 @@ def error(law: Any, truth: Law, low: float, high: float) -> float:
     return float(np.max(np.abs(jax.vmap(law)(x) / truth(x) - 1)))
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_thermostats_zone_learns_its_losses() -> None:
     fit, true = trained(Zone(learned_losses()), Zone(Convection()), "zone.T", 12.0, 120, 40)
     assert len(true.events) >= 5

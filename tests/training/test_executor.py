@@ -133,7 +133,7 @@ def test_a_pool_with_a_killed_worker_is_made_again(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_training_whose_worker_is_lost_goes_on_from_its_own_checkpoint(tmp_path: Path) -> None:
     given: dict[str, Any] = {
         "members": 2, "modifiers": ["mass.m"], "checkpoint": tmp_path / "run.safetensors", **SHORT

@@ -9,6 +9,7 @@ import pytest
 
 import acausal as ac
 from tests.support.bridges import bridge
+from tests.support.slow import some_slow
 
 END = 0.016
 
@@ -24,8 +25,7 @@ def system() -> ac.System:
     return ac.compile(bridge())
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("steps", STEPS)
+@pytest.mark.parametrize("steps", some_slow(STEPS, ["stiff"], STEPS.keys() - {"stiff"}))
 def test_a_bridge_begins_to_conduct(system: ac.System, steps: str) -> None:
     run = ac.simulate(system, END, saveat=np.linspace(0, END, 161), **STEPS[steps])
     i, v = (np.stack([run[f"d{k}.{n}"] for k in range(1, 7)]) for n in "iv")

@@ -105,6 +105,7 @@ def test_an_event_at_a_time_to_save(ball: ac.System) -> None:
     assert gradient == pytest.approx(sp_derivatives(1.0)[0], rel=1e-8)
 
 
+@pytest.mark.cases(slow=1)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", STEPS)
 def test_a_sampling_period_is_trained(kind: str) -> None:

@@ -32,7 +32,7 @@ def _floor(t: Any) -> Any:
 @pytest.mark.parametrize(
     "steps",
     [
-        pytest.param({"rtol": 1e-11, "atol": 1e-13}, marks=pytest.mark.slow),
+        pytest.param({"rtol": 1e-11, "atol": 1e-13}, marks=pytest.mark.machines),
         {"dt": 0.01, "solver": "rk4"},
     ],
     ids=["adaptive", "fixed"],
