@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -20,7 +20,8 @@ def select_states(system: Equations) -> list[int]:
     """Choose dummy derivatives (Mattsson & Soderlind 1993) and keep the most preferred variables as states.
 
     The differentiated constraints determine the dummies if their Jacobian has full rank. This is decided numerically:
-    first at the model's start values, as far as they are given, then at random values.
+    at the model's start values; where these are a singular point, as angles of zero often are, at those that modifiers
+    give, and random values for the others; at last at random values alone.
 
     Raises:
         StructureError: if the constraints depend on each other.
@@ -48,7 +49,7 @@ def select_states(system: Equations) -> list[int]:
 
 
 def _independent(
-    system: Equations, constraints: list[int], candidates: list[int], points: tuple[Point, ...]
+    system: Equations, constraints: list[int], candidates: list[int], points: Sequence[Point]
 ) -> list[int]:
     """Candidates that the constraints determine, as many as there are constraints."""
     left: list[int] = []
@@ -65,15 +66,16 @@ def _independent(
     )
 
 
-def _points(system: Equations) -> tuple[Point, Point]:
-    """Where the Jacobian is evaluated: at the given starts, else random values; and at random values alone."""
-    model = system.model
+def _points(system: Equations) -> list[Point]:
+    """Where the Jacobian is evaluated: at all starts, at those that are given, and at random values."""
+    model, aliases = system.model, system.aliases
     anywhere = random_values(len(system.structure.derivative))
-    start = np.array(anywhere)
     given = np.flatnonzero(model.start_given)
-    start[system.aliases.representative[given]] = system.aliases.sign[given] * model.start[given]
-    parameters = system.parameter_values
-    return Point(start, parameters), Point(anywhere, parameters)
+    stated = np.union1d(given, np.flatnonzero(model.start))
+    start, partly = np.zeros_like(anywhere), np.array(anywhere)
+    for point, members in ((start, stated), (partly, given)):
+        point[aliases.representative[members]] = aliases.sign[members] * model.start[members]
+    return [Point(values, system.parameter_values) for values in (start, partly, anywhere)]
 
 
 def _preference(

@@ -226,6 +226,16 @@ def test_states_are_chosen_that_work_where_the_model_starts(start, state):
     assert np.isfinite(rates(system, system.initial_state())).all()
 
 
+def test_starts_that_a_class_declares_count_as_those_that_modifiers_give():
+    class Lying(Pendulum):
+        def __init__(self):
+            super().__init__()
+            del self.x
+            self.x = ac.Variable(start=1.0)
+
+    assert ac.compile(Lying()).states == ("y", "w")
+
+
 @pytest.mark.parametrize("n", [3, 6])
 def test_a_signal_differentiated_many_times(n):
     names = [f"x{i}" for i in range(n)]
