@@ -26,9 +26,12 @@ from acausal.modeling import time
 FEW = 12
 """The most unknowns that are eliminated in array operations; more take XLA too long to compile."""
 
+Torn = Callable[[Array], tuple[Sequence[Array], Array]]
+"""From tearing variables (m,) to all unknowns of a block, n scalars, and its residuals (m,)."""
+
 
 def solve_block(
-    block: Block,
+    block: Torn,
     guess: Float[Array, " m"],
     scale: Float[Array, " m"] | float = 1.0,
     *,
@@ -43,18 +46,28 @@ def solve_block(
         if is_linear:
             r, jacobian = value_and_jacobian(residual, start, axis=-1)
             return -_solve(jacobian, r)
-        found, converged = root(Dense(block, _solve), start, scale)
+        found, converged = root(Dense(_stacked(block), _solve), start, scale)
         return jnp.where(converged, found, jnp.nan)
 
     start = jnp.zeros_like(guess) if is_linear else guess
-    return block(jax.lax.custom_root(lambda z: block(z)[1], start, solve, _tangent))[0]
+    return _stacked(block)(jax.lax.custom_root(lambda z: block(z)[1], start, solve, _tangent))[0]
+
+
+def _stacked(block: Torn) -> Block:
+    """A block that gives its unknowns as an array; a linear one is solved without."""
+
+    def stacked(z: Array) -> tuple[Array, Array]:
+        unknowns, residuals = block(z)
+        return jnp.stack(unknowns), residuals
+
+    return stacked
 
 
 def nearest(
-    block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
+    block: Torn, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
 ) -> Float[Array, " m"]:
     """Tearing variables where the search for a root of a nonlinear block ends, whether or not they are a root."""
-    return root(Dense(block, _solve), guess, scale)[0]
+    return root(Dense(_stacked(block), _solve), guess, scale)[0]
 
 
 def _tangent(linear: Residual, y: Float[Array, " m"]) -> Float[Array, " m"]:
@@ -164,11 +177,11 @@ def nearest_of_torn_loop(
     t = filled.pop(time)
     known = [_row(value, row) for value in filled.values()]
 
-    def block(tears: Array) -> tuple[Array, Array]:
+    def block(tears: Array) -> tuple[list[Array], Array]:
         return _torn(loop, tears, t, known)
 
     guess = _guess(loop, values, arrays)[row]
-    return block(nearest(block, guess, jnp.asarray(loop.scale[row])))
+    return _stacked(block)(nearest(block, guess, jnp.asarray(loop.scale[row])))
 
 
 def _row(value: Any, i: int) -> Any:
@@ -182,7 +195,7 @@ def _row(value: Any, i: int) -> Any:
     return jax.tree.map(lambda leaf: leaf[i] if eqx.is_array(leaf) else leaf, value.module)
 
 
-def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Known) -> tuple[Array, Array]:
+def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Known) -> tuple[list[Array], Array]:
     """All unknowns of a torn block, and its residuals, for given tearing variables."""
     unknowns: list[Any] = [None] * loop.outputs
     for i, variable in enumerate(loop.tears):
@@ -190,7 +203,7 @@ def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Known) -> tuple[Arra
     for unknown, formula in loop.assigned:
         unknowns[unknown] = _value(formula, unknowns, t, known)
     residuals = [_value(f, unknowns, t, known) for f in loop.residuals]
-    return jnp.stack(unknowns), jnp.stack(residuals)
+    return unknowns, jnp.stack(residuals)
 
 
 def _value(formula: ArrayFormula, unknowns: Sequence[Any], t: Any, known: Known) -> Array:

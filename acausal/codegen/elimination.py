@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float
 
 
 class Pivot(NamedTuple):
-    """One step of the elimination, of the k unknowns that are left.
+    """One step of the elimination, of the k > 1 unknowns that are left.
 
     Attributes:
         chosen: which of the k rows is the pivot's, the one with the largest entry in the first column; the first row
@@ -54,26 +54,29 @@ def _derivative(
 eliminate.defjvp(_derivative, symbolic_zeros=True)
 
 
-def _factorize(a: Float[Array, "n n"]) -> list[Pivot]:
-    """The steps of the elimination."""
+def _factorize(a: Float[Array, "n n"]) -> tuple[list[Pivot], Float[Array, "1 1"]]:
+    """The steps of the elimination, and the last entry that is left."""
     pivots: list[Pivot] = []
-    while len(a):
+    while len(a) > 1:
         chosen = jnp.arange(len(a)) == jnp.argmax(jnp.abs(a[:, 0]))
         row = _chosen(chosen, a)
         rest = _others(chosen, a)
         factors = rest[:, 0] / row[0]
         pivots.append(Pivot(chosen, row, factors))
         a = rest[:, 1:] - factors[:, None] * row[1:]
-    return pivots
+    return pivots, a
 
 
-def _apply(pivots: Sequence[Pivot], b: Float[Array, " n"]) -> Float[Array, " n"]:
+def _apply(
+    factors: tuple[Sequence[Pivot], Float[Array, "1 1"]], b: Float[Array, " n"]
+) -> Float[Array, " n"]:
     """The solution for a right side; a linear function of it."""
+    pivots, last = factors
     right: list[Array] = []
     for p in pivots:
         right.append(_chosen(p.chosen, b))
         b = _others(p.chosen, b) - p.factors * right[-1]
-    x = b  # empty
+    x = b / last[0]
     for p, value in zip(reversed(pivots), reversed(right), strict=True):
         rest = value - jnp.sum(p.row[1:] * x)
         x = jnp.concatenate([(rest / p.row[0])[None], x])
