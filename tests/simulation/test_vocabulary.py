@@ -2,7 +2,7 @@
 
 import functools
 import math
-import time
+import re
 
 import jax
 import jax.numpy as jnp
@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal._jax import host_calls
 from acausal.components import translational as tl
 from acausal.simulation import Solution
 from tests.support.hybrid import Ball
@@ -70,16 +71,15 @@ def test_interpolants_of_numpy_and_scipy_are_inputs() -> None:
     np.testing.assert_allclose(found[1].x, found[2].x, rtol=1e-9)
 
 
-def test_calls_of_any_function_cost_microseconds() -> None:
-    """They are read where they lie in memory; a callback of JAX's takes some hundred."""
-    times: list[float] = []
+def test_any_function_is_called_without_a_callback_of_jax() -> None:
+    """It is read where it lies in memory, which takes microseconds; a callback takes some hundred."""
 
-    def called(t: float) -> float:
-        times.append(time.perf_counter())
-        return math.sin(t)
+    def last(c: jax.Array) -> jax.Array:
+        params = {**plain().parameters(), "spring.c": c}
+        return ac.simulate(plain(), 1.0, dt=0.1, inputs={PUSH: late}, params=params).x[-1, 0]
 
-    np.asarray(ac.simulate(plain(), 1.0, dt=1e-3, solver="rk4", inputs={PUSH: called}).x)
-    assert np.percentile(np.diff(times), 10) < 50e-6
+    program = jax.jit(last).lower(100.0).as_text()
+    assert set(re.findall(r"custom_call @(\w+)", program)) == {host_calls.NAME}
 
 
 def test_a_function_that_fails_later_says_why() -> None:
