@@ -41,6 +41,15 @@ class AliasFree:
     groups: tuple[EquationGroup, ...]
     redundant: tuple[tuple[Origin, int], ...]
 
+    def start_order(self, model: FlatModel) -> Integers:
+        """The variables, such that of those that a node stands for the last one's start is the node's.
+
+        One with a fixed start takes precedence, then one whose start was given, then the node's own.
+        """
+        variables = np.arange(model.n_variables)
+        own = self.representative[: model.n_variables] == variables
+        return np.lexsort((-variables, own, model.start_given, model.fixed))
+
 
 def eliminate_aliases(model: FlatModel) -> AliasFree:
     """Merge aliased variables of a flat model and specialise its equations."""

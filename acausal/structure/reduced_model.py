@@ -100,18 +100,12 @@ class ReducedModel(LeavesCaches):
 
     @cached_property
     def start_members(self) -> tuple[Integers, Integers]:
-        """For every node the variable whose start it takes (itself if it has no name), and the sign.
-
-        Of a node's names, one with a fixed start takes precedence, then one whose start was given, then the node's own.
-        """
-        model, n = self.model, self.model.n_variables
-        node, sign = self.aliases.representative[:n], self.aliases.sign[:n]
-        own = node == np.arange(n)
-        order = np.lexsort((-np.arange(n), own, model.start_given, model.fixed))
+        """For every node the variable whose start it takes (itself if it has no name), and the sign."""
+        aliases, order = self.aliases, self.aliases.start_order(self.model)
         member = np.arange(len(self.derivative))
         member_sign = np.ones(len(member), dtype=np.int64)
-        member[node[order]] = order
-        member_sign[node[order]] = sign[order]
+        member[aliases.representative[order]] = order
+        member_sign[aliases.representative[order]] = aliases.sign[order]
         return member[self.meant], member_sign[self.meant]
 
     def start_values(self, nodes: Integers) -> np.ndarray:

@@ -70,10 +70,9 @@ def _points(system: Equations) -> list[Point]:
     """Where the Jacobian is evaluated: at all starts, at those that are given, and at random values."""
     model, aliases = system.model, system.aliases
     anywhere = random_values(len(system.structure.derivative))
-    given = np.flatnonzero(model.start_given)
-    stated = np.union1d(given, np.flatnonzero(model.start))
+    order = aliases.start_order(model)
     start, partly = np.zeros_like(anywhere), np.array(anywhere)
-    for point, members in ((start, stated), (partly, given)):
+    for point, members in ((start, order), (partly, order[model.start_given[order]])):
         point[aliases.representative[members]] = aliases.sign[members] * model.start[members]
     return [Point(values, system.parameter_values) for values in (start, partly, anywhere)]
 

@@ -236,6 +236,19 @@ def test_starts_that_a_class_declares_count_as_those_that_modifiers_give():
     assert ac.compile(Lying()).states == ("y", "w")
 
 
+def test_a_start_that_is_given_counts_more_than_that_of_another_name():
+    class Named(Pendulum):
+        def __init__(self):
+            super().__init__(x=ac.Start(1.0), y=ac.Start(0.0))
+            self.height = ac.Variable(start=0.5)
+
+        def equations(self):
+            yield from super().equations()
+            yield ac.Eq(self.height, self.y)
+
+    assert ac.compile(Named()).states == ("y", "w")
+
+
 @pytest.mark.parametrize("n", [3, 6])
 def test_a_signal_differentiated_many_times(n):
     names = [f"x{i}" for i in range(n)]
