@@ -87,7 +87,6 @@ def counts():
 
 
 @pytest.mark.machines
-@pytest.mark.cases(fast=1)
 def test_sympy_is_asked_as_often_whatever_the_size(pair, counts):
     case, built = pair
     called = counts[next(name for name, known in CASES.items() if known is case)]

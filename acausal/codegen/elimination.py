@@ -35,7 +35,7 @@ def eliminate(a: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n
 
     Its derivatives are solutions with the same matrix, or its transpose; XLA computes the pivots they share once.
     """
-    return _computed_once(_apply(_factorize(_computed_once(a)), _computed_once(b)))
+    return _computed_once(_apply(*_factorize(_computed_once(a)), _computed_once(b)))
 
 
 def _derivative(
@@ -68,10 +68,9 @@ def _factorize(a: Float[Array, "n n"]) -> tuple[list[Pivot], Float[Array, "1 1"]
 
 
 def _apply(
-    factors: tuple[Sequence[Pivot], Float[Array, "1 1"]], b: Float[Array, " n"]
+    pivots: Sequence[Pivot], last: Float[Array, "1 1"], b: Float[Array, " n"]
 ) -> Float[Array, " n"]:
     """The solution for a right side; a linear function of it."""
-    pivots, last = factors
     right: list[Array] = []
     for p in pivots:
         right.append(_chosen(p.chosen, b))

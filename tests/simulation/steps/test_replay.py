@@ -62,7 +62,6 @@ def loss(solver: str, k: Any, x0: Any, u: Any) -> Any:
 POINT = 4.0, 1.0, jnp.asarray(SAMPLES)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("solver", some_slow(["tsit5", "bdf", "auto"], ["auto"], ["tsit5", "bdf"]))
 def test_reverse_forward_and_differences_agree(solver: str):
     of = functools.partial(loss, solver)
