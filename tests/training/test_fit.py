@@ -484,6 +484,8 @@ def test_outputs_alone_suffice_for_the_whole_record():
          "dt=0.003 s does not divide the data's sample time, 0.01 s: choose 0.00333333 s, or resample the data."),
         ({"train": ["extra.nets"]}, ac.TrainingError,
          "There is no network 'extra.nets' to train: did you mean 'extra.net'?"),
+        ({"train": ["mass.m"]}, ac.TrainingError,
+         "'mass.m' is a parameter, no network: give modifiers=['mass.m'] to train it."),
         ({"modifiers": ["mass.k"]}, ac.TrainingError,
          "There is no parameter 'mass.k' to train: did you mean 'mass.m'?"),
         ({"modifiers": {"mass.m": 1.5}}, ac.TrainingError,
