@@ -62,6 +62,7 @@ from acausal.modeling import (
     Name,
     Option,
     antiderivatives,
+    by_element,
     names_in,
 )
 from acausal.structure import ReducedModel, reduce, with_loop_guesses
@@ -644,7 +645,7 @@ class System(LeavesCaches):
             DataError: for a name that is not an input, an array of another length, or what is not a number.
         """
         if u is None or isinstance(u, Mapping):
-            given = dict(u or {})
+            given = by_element(u or {}, self.inputs, argument)
             for name in given:
                 known_name(name, self.inputs, f"{argument}:", then=" is not an input;")
             numbers: Any = [given.get(n, self.input_defaults.get(n, 0.0)) for n in self.inputs]

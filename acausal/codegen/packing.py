@@ -23,6 +23,7 @@ from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.reading import compute
 from acausal.codegen.values import Packed
 from acausal.errors import DataError, DeclarationError, listing, shown
+from acausal.modeling import by_element
 
 FEW = 64
 """Formulas that are compiled as one program. Of more, each operation is one: in long chains these are the same ones."""
@@ -65,6 +66,7 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
         return params
     if not isinstance(params, Mapping):
         raise DataError(f"params are numbers and networks by name, not {shown(params)}")
+    params = by_element(params, {*layout.names, *layout.module_names}, "params")
     layout.check_names(params)
     if any(name not in params for name in layout.module_names):
         params = {**default_parameters(layout, as_key(0)), **params}

@@ -28,7 +28,7 @@ from acausal.codegen import (
 from acausal.errors import DataError, InitializationError, listing, nearest, need_flag, shown
 from acausal.flattening import LeavesCaches
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
-from acausal.modeling import ByName, by_name, names_in
+from acausal.modeling import ByName, by_element, by_name, names_in
 from acausal.structure import ReducedModel
 
 MAX_STEPS = 100
@@ -261,6 +261,7 @@ class Initializer(LeavesCaches):
             DataError: for what is not a state, or two values of one.
         """
         found: dict[str, Any] = {}
+        given = by_element(given, self.names, "x0")
         for name in names_in(given, "x0"):
             state, value = name, given[name]
             index = self.reduced.model.layout.find_variable(name)

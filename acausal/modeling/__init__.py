@@ -98,6 +98,7 @@ from acausal.modeling.names import (
     ByName as ByName,
     Name as Name,
     antiderivatives as antiderivatives,
+    by_element as by_element,
     by_name as by_name,
     names_in as names_in,
     names_matching as names_matching,

@@ -4,17 +4,24 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from acausal.errors import DataError, nearest, shown
+from acausal.modeling.declarations import element_names
+
+ELEMENT = re.compile(r"\[\d+(,\d+)*\]$")
+"""How the name of an array's element ends."""
 
 
 class ByName(ABC):
     """What can be read by name, as a pandas DataFrame can.
 
-    ``thing["a"]`` is one column; ``thing[["a", "b"]]`` has two columns, on its last axis; ``"a" in thing`` asks
-    whether there is such a name; iteration goes through the names.
+    ``thing["a"]`` is one column, of an array one for each element; ``thing[["a", "b"]]`` has two columns, on its last
+    axis; ``"a" in thing`` asks whether there is such a name; iteration goes through the names.
     """
 
     @property
@@ -33,12 +40,21 @@ class ByName(ABC):
     def __getitem__(self, name: Any) -> Any:
         """The values of one name; those of several, in the order asked, on a last axis of their own.
 
+        The name of an array gives that of its elements, on last axes of the array's shape.
+
         Raises:
             DataError: for an unknown name, or what is not a name.
         """
-        if isinstance(name, str):
+        if not isinstance(name, str):
+            return self._side_by_side(names_in(name))
+        try:
             return self._column(str(name))
-        return self._side_by_side(names_in(name))
+        except DataError:
+            elements = elements_of(name, self.names)
+            if elements is None:
+                raise
+        side_by_side = self._side_by_side(tuple(elements.ravel().tolist()))
+        return side_by_side.reshape(*side_by_side.shape[:-1], *elements.shape)
 
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and name in self.names
@@ -142,6 +158,63 @@ def by_name(given: Any, argument: str, example: str) -> dict[str, Any]:
     if not isinstance(given, Mapping | None):
         raise DataError(f"{argument}={shown(given)} has no names; give {example}.")
     return {name: given[name] for name in names_in(given, argument)} if given is not None else {}
+
+
+def elements_of(name: str, known: Iterable[str]) -> NDArray[np.str_] | None:
+    """The names of an array's elements, in its shape; None where the known names have no whole array of that name."""
+    begin = f"{name}["
+    found = {n for n in known if n.startswith(begin)}
+    indices = [tuple(map(int, n[len(begin) : -1].split(","))) for n in found if ELEMENT.search(n)]
+    if len({len(index) for index in indices}) != 1:
+        return None
+    shape = tuple(map(max, zip(*indices, strict=True)))
+    names = element_names(name, shape)
+    return np.asarray(names).reshape(shape) if found.issuperset(names) else None
+
+
+def by_element(
+    given: Mapping[str, Any], known: Collection[str], argument: str
+) -> Mapping[str, Any]:
+    """The same, arrays that are given as a whole by their elements: ``{"x": [1, 2]}`` as ``{"x[1]": 1, "x[2]": 2}``.
+
+    Arguments:
+        given: by name, what belongs to it; of an array, with its shape as last axes. So has the second of a pair.
+        known: the names that there are. argument: what is given, for messages.
+
+    Raises:
+        DataError: for another shape, and for an element that is given twice.
+    """
+    known = frozenset(known)
+    if known.issuperset(given):
+        return given
+    found: dict[str, Any] = {}
+    for name, value in given.items():
+        elements = None if name in known else elements_of(name, known)
+        one = (
+            {name: value}
+            if elements is None
+            else _divided(elements, value, f"{argument}: '{name}'")
+        )
+        if twice := found.keys() & one.keys():
+            raise DataError(
+                f"{argument}: '{min(twice)}' is given twice, by itself and within its array."
+            )
+        found |= one
+    return found
+
+
+def _divided(elements: NDArray[np.str_], value: Any, what: str) -> dict[str, Any]:
+    """By element, its part of the values of an array."""
+    pair = isinstance(value, tuple) and len(value) == 2 and np.ndim(value[0]) > 0
+    times, numbers = value if pair else (None, value)
+    numbers = numbers if hasattr(numbers, "ndim") else np.asarray(numbers)
+    shape = np.shape(numbers)
+    if shape[max(len(shape) - elements.ndim, 0) :] != elements.shape:
+        raise DataError(
+            f"{what} is an array of shape {elements.shape}; its values have the shape {shape}."
+        )
+    parts = {elements[i]: numbers[(..., *i)] for i in np.ndindex(elements.shape)}
+    return {str(n): (times, part) if pair else part for n, part in parts.items()}
 
 
 def antiderivatives(name: str) -> tuple[str, ...]:

@@ -26,7 +26,7 @@ from acausal.data import (
     read_series,
 )
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
-from acausal.modeling import antiderivatives, by_name
+from acausal.modeling import antiderivatives, by_element, by_name
 from acausal.simulation.host_function import on_host
 from acausal.units import convert
 
@@ -129,7 +129,7 @@ def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
         n: (ts, samples if unit is None else convert(samples, unit, system.unit(n), f"'{n}'"))
         for n, (ts, samples, unit) in read_series(series).items()
     }
-    return {**found, **pairs}
+    return by_element({**found, **pairs}, known, "inputs")
 
 
 def functions_of_time(

@@ -213,7 +213,9 @@ def trained_networks(
     chosen = names_in(train, "train")
     for name in chosen:
         if name in layout.names:
-            raise TrainingError(f"'{name}' is a parameter, no network: give modifiers=['{name}'] to train it.")
+            raise TrainingError(
+                f"'{name}' is a parameter, no network: give modifiers=['{name}'] to train it."
+            )
         known_name(name, trainable, "There is no network", TrainingError, " to train:")
     return chosen
 
