@@ -42,15 +42,15 @@ from acausal.events.lines import (
     BENT,
     NOTHING,
     PART_OF_PERIOD,
-    WAVES,
     Ahead,
     Line,
     Walk,
     has_edges,
+    is_foreseen,
     is_straight,
 )
 from acausal.events.zero_crossings import arrays_for
-from acausal.flattening import LeavesCaches
+from acausal.flattening import WAVES, LeavesCaches
 from acausal.modeling import time
 
 
@@ -166,7 +166,7 @@ class Edges(LeavesCaches):
     def bends(self) -> bool:
         """Whether the right-hand side jumps or bends at times that are not known ahead.
 
-        That is where states or inputs make it, or a curve of time, such as a sine that is clipped.
+        That is where states or inputs make it, or a curve of time, such as a sum of sines that is clipped.
         """
         for part in self._needed(self.program.rate_sources):
             straight = self._known - self._curved
@@ -174,7 +174,7 @@ class Edges(LeavesCaches):
             known = {time, *part.arguments.symbols} - bent
             timed = self._symbols(part, self._timed)
             for node in part.expression.atoms(*BENT):
-                if node.free_symbols - known or not all(is_straight(a, timed) for a in node.args):
+                if node.free_symbols - known or not is_foreseen(node, timed):
                     return True
         return False
 

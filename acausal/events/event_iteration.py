@@ -77,11 +77,14 @@ class After(NamedTuple):
 class _Going(NamedTuple):
     """How far an event has come.
 
-    ``forced`` are the values of conditions within their ``band``; ``looked``: whether it was seen if they switch back.
+    ``found`` are the discrete variables of the last pass, which ``d`` repeats with derivatives, and with other rounding
+    errors. ``forced`` are the values of conditions within their ``band``; ``looked``: whether it was seen if they
+    switch back.
     """
 
     x: Array
     d: Array
+    found: Array
     band: Array
     forced: Array
     looked: Array
@@ -122,7 +125,7 @@ def fire(
     if forced is None:
         forced = jnp.where(band >= 0, 1 - at.d[:n], at.d[:n])
     no, yes = jnp.array(False), jnp.array(True)
-    start = _Going(at.x, at.d, band, forced, no, no, yes, jnp.asarray(0))
+    start = _Going(at.x, at.d, at.d, band, forced, no, no, yes, jnp.asarray(0))
     like = Pass(at.x, at.d, at.d) if keep else None
     room = jax.tree.map(lambda a: jnp.zeros((PASSES, *a.shape), a.dtype), like)
 
@@ -168,7 +171,7 @@ def _pass(
     found, converged = iterate(events, before, going.band, going.forced)
     this = Pass(going.x, going.d, found)
     x, d = after_pass(events, at, this)
-    done = jnp.all(equal(found, going.d))
+    done = jnp.all(equal(found, going.found))
     n, forced, looked, band = events.n_guards, going.forced, going.looked, going.band
     if len(events.resets):
         condition, edge = events.resets.T
@@ -182,7 +185,7 @@ def _pass(
         forced, band = lax.cond(done & ~looked, look, lambda: (forced, band))
         looked = looked | done
         done = done & jnp.all((forced == going.forced) & equal(band, going.band))
-    return _Going(x, d, band, forced, looked, done, converged, going.n + 1), this
+    return _Going(x, d, found, band, forced, looked, done, converged, going.n + 1), this
 
 
 def iterate(
@@ -237,7 +240,8 @@ def once_more(
         g = jnp.where(events.timed, there, g)
     as_forced = (jnp.abs(g) <= band) & (k < FORCED)
     rounding = jnp.where(k < DOUBTED, -1.0, 10.0 ** (jnp.minimum(k // DOUBTED, 6) - 13.0))
-    r = jnp.where(jnp.abs(g) <= rounding, d[:n], holds(events, g).astype(d.dtype))
+    doubted = ~events.timed & (jnp.abs(g) <= rounding)  # one whose time is known is beyond doubt
+    r = jnp.where(doubted, d[:n], holds(events, g).astype(d.dtype))
     r = jnp.where(as_forced, forced, r)
     r = jnp.where(events.ticks & (jnp.asarray(initial) > 0), 0, r)
     differs = r != d[:n]

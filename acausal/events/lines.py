@@ -8,6 +8,7 @@ edge in its middle, lest a step of the solver leaps over it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import combinations, product
 from typing import Any, NamedTuple
 
 import jax
@@ -17,12 +18,12 @@ from jax.typing import ArrayLike
 from sympy.core.relational import Relational
 
 from acausal.codegen import ModuleValue, evaluate
+from acausal.flattening import WAVES, swing
 from acausal.modeling import ModuleCall, time
 
 PART_OF_PERIOD = 0.125
 """The longest step, as a part of the period of a sine."""
 
-WAVES = (sp.sin, sp.cos, sp.tan)
 STEPS = (sp.floor, sp.ceiling, sp.Mod)
 SIGNS = (sp.Abs, sp.sign, sp.Heaviside)
 EXTREMES = (sp.Max, sp.Min)
@@ -34,6 +35,9 @@ STEEP = (sp.tanh, sp.cosh, sp.atan)
 
 EDGED = (Relational, ModuleCall, *WAVES, *STEPS, *SIGNS, *EXTREMES)
 """What gives an edge or a bound where its arguments depend on time."""
+
+CHOOSING = (Relational, sp.sign, sp.Heaviside)
+"""What stays as it is between two edges."""
 
 BENT = (Relational, *STEPS, *SIGNS, *EXTREMES)
 """What bends or jumps where its arguments are variables."""
@@ -103,10 +107,41 @@ def is_straight(node: Any, timed: set[sp.Symbol]) -> bool:
     """Whether an expression is a line between any two edges, by what changes with time."""
     if not node.free_symbols & timed or node in timed:
         return True
+    if isinstance(node, CHOOSING):
+        return is_foreseen(node, timed)
     if isinstance(node, sp.Mul) and sum(bool(a.free_symbols & timed) for a in node.args) > 1:
         return False
     kinds = (sp.Add, sp.Mul, sp.Piecewise, sp.Tuple, sp.And, sp.Or, sp.Not, *BENT)
     return isinstance(node, kinds) and all(is_straight(a, timed) for a in node.args)
+
+
+def is_foreseen(node: Any, timed: set[sp.Symbol]) -> bool:
+    """Whether all edges of what bends or jumps are known ahead, by what changes with time."""
+    if isinstance(node, STEPS):
+        return all(is_straight(one, timed) for one in node.args)
+    return all(is_straight(one, timed) or _swings(one, timed) for one in _compared(node))
+
+
+def _swings(node: Any, timed: set[sp.Symbol]) -> bool:
+    """Whether an expression is a wave of a line about a level that does not move."""
+    found = swing(node)
+    if found is None or (found.middle.free_symbols | found.size.free_symbols) & timed:
+        return False
+    return is_straight(found.wave.args[0], timed)
+
+
+def _compared(node: Any) -> list[Any]:
+    """What is zero where an expression bends or jumps."""
+    if isinstance(node, SIGNS):
+        return [node.args[0]]
+    is_relation = isinstance(node, Relational)
+    pairs = product(*map(_ends, node.args)) if is_relation else combinations(_ends(node), 2)
+    return [one - other for one, other in pairs]
+
+
+def _ends(node: Any) -> list[Any]:
+    """What an extreme chooses its value from, of extremes within it too; itself, for anything else."""
+    return [end for a in node.args for end in _ends(a)] if isinstance(node, EXTREMES) else [node]
 
 
 class Walk:
@@ -152,7 +187,7 @@ class Walk:
             if isinstance(node, kinds):
                 found = found.joined(rule(self, node))
         for middle in _middles(node):
-            found = found.joined(self._meeting(middle, sp.S.Zero).bent())
+            found = found.joined(self._zero(middle).bent())
         return found
 
     def _cases(self, node: Any) -> Ahead:
@@ -168,12 +203,40 @@ class Walk:
                 found = found.joined(self.visit(value).where(open_))
         return found
 
-    def _meeting(self, one: Any, other: Any) -> Ahead:
-        """Where two values are equal."""
-        a, b = self.line(one), self.line(other)
-        if a is None or b is None or (a.constant and b.constant):
-            return NOTHING
-        return self._at(a.at_zero - b.at_zero, a.rate - b.rate)
+    def _zero(self, number: Any) -> Ahead:
+        """Where a number is zero: a line, or a wave of a line about a level that does not move."""
+        line, swings = self.line(number), self._swing(number)
+        if line is not None and not line.constant:
+            return self._at(line.at_zero, line.rate)
+        return NOTHING if swings is None else self._passing(*swings)
+
+    def _swing(self, number: Any) -> tuple[Any, Any, Line] | None:
+        """The wave, the level that it has where the number is zero, and its phase; None for any other number."""
+        found = swing(number)
+        if found is None:
+            return None
+        middle, size, phase = map(self.line, (found.middle, found.size, found.wave.args[0]))
+        if middle is None or size is None or phase is None or phase.constant:
+            return None
+        if not (middle.constant and size.constant):
+            return None
+        size = jnp.where(size.at_zero == 0, jnp.nan, size.at_zero)
+        return found.wave, -middle.at_zero / size, phase
+
+    def _passing(self, wave: Any, level: Any, phase: Line) -> Ahead:
+        """Where a wave passes a level."""
+        angles, period = _ANGLES[type(wave)](level)
+        forward, moves = phase.rate > 0, phase.rate != 0
+        rate = jnp.where(moves, phase.rate, 1.0)
+        here, turn = phase.at(self.later), jnp.where(forward, period, -period)
+        ahead = NOTHING
+        for angle in angles:
+            passes = angle + turn * (jnp.floor((here - angle) / turn) + 1)
+            t = (passes - phase.at_zero) / rate
+            t = jnp.where(t > self.later, t, t + jnp.abs(period / rate))
+            jump = jnp.where(moves & jnp.isfinite(t), t, jnp.inf)
+            ahead = ahead.joined(Ahead(jump, jnp.inf, jnp.inf))
+        return ahead
 
     def _at(self, at_zero: Any, rate: Any) -> Ahead:
         """Where a line is zero."""
@@ -181,19 +244,11 @@ class Walk:
         ahead = (rate != 0) & (root > self.later)
         return Ahead(jnp.where(ahead, root, jnp.inf), jnp.inf, jnp.inf)
 
-    def _relation(self, node: Any) -> Ahead:
-        return self._meeting(node.lhs, node.rhs)
-
-    def _sign(self, node: Any) -> Ahead:
-        found = self._meeting(node.args[0], sp.S.Zero)
-        return found.bent() if isinstance(node, sp.Abs) else found
-
-    def _extreme(self, node: Any) -> Ahead:
+    def _choice(self, node: Any) -> Ahead:
         found = NOTHING
-        for i, one in enumerate(node.args):
-            for other in node.args[i + 1 :]:
-                found = found.joined(self._meeting(one, other).bent())
-        return found
+        for number in _compared(node):
+            found = found.joined(self._zero(number))
+        return found if isinstance(node, CHOOSING) else found.bent()
 
     def _whole(self, node: Any) -> Ahead:
         number = node.args[0]
@@ -274,7 +329,9 @@ class Walk:
             return self._line_of_cases(node)
         if isinstance(node, STEPS[:2]) and self.line(node.args[0]) is not None:
             return Line(self.value(node), 0.0)
-        if isinstance(node, sp.sign | sp.Heaviside) and self.line(node.args[0]) is not None:
+        if isinstance(node, CHOOSING[1:]) and (
+            self.line(node.args[0]) is not None or self._swing(node.args[0]) is not None
+        ):
             return Line(self.value(node), 0.0)
         if isinstance(node, ModuleCall):
             return self._line_of_table(node)
@@ -352,10 +409,35 @@ def _differentiated(value: ModuleValue, times: int) -> ModuleValue:
     return ModuleValue(value.module.differentiated(times), value.stacked)
 
 
+def _of_circle(level: Any, angle: Callable[[Any], Any]) -> Any:
+    """An angle of a level that a point on the unit circle passes; NaN for one that it does not pass."""
+    inside = jnp.abs(level) < 1
+    return jnp.where(inside, angle(jnp.where(inside, level, 0.0)), jnp.nan)
+
+
+def _of_sine(level: Any) -> tuple[tuple[Any, ...], float]:
+    angle = _of_circle(level, jnp.arcsin)
+    return (angle, jnp.pi - angle), 2 * jnp.pi
+
+
+def _of_cosine(level: Any) -> tuple[tuple[Any, ...], float]:
+    angle = _of_circle(level, jnp.arccos)
+    return (angle, -angle), 2 * jnp.pi
+
+
+def _of_tangent(level: Any) -> tuple[tuple[Any, ...], float]:
+    return (jnp.arctan(level), 0 * level + jnp.pi / 2), jnp.pi  # at the other it jumps
+
+
+_ANGLES: dict[Any, Callable[[Any], tuple[tuple[Any, ...], float]]] = {
+    sp.sin: _of_sine,
+    sp.cos: _of_cosine,
+    sp.tan: _of_tangent,
+}
+"""By wave, at what angles it passes a level, and its period."""
+
 _EDGES: tuple[tuple[Any, Callable[[Walk, Any], Ahead]], ...] = (
-    (Relational, Walk._relation),
-    (SIGNS, Walk._sign),
-    (EXTREMES, Walk._extreme),
+    ((Relational, *SIGNS, *EXTREMES), Walk._choice),
     (STEPS, Walk._whole),
     (WAVES, Walk._wave),
     (ModuleCall, Walk._table),

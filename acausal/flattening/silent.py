@@ -14,6 +14,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from acausal.flattening.reading import read_statements
+from acausal.flattening.swing import swing
 from acausal.modeling import (
     Component,
     Discrete,
@@ -198,6 +199,9 @@ def _changes(relation: Any) -> bool:
     number = relation.lhs - relation.rhs
     floors = number.atoms(sp.floor)
     lines = [number.xreplace({f: sp.Dummy() for f in floors}), *(f.args[0] for f in floors)]
+    if (found := swing(number)) is not None and not floors:
+        moves = time in found.middle.free_symbols | found.size.free_symbols
+        lines = [number] if moves else [found.wave.args[0]]
     return any(time in line.diff(time).free_symbols for line in lines)
 
 
@@ -239,6 +243,22 @@ def in_steps(expression: Any) -> Any:
         return isinstance(part, sp.sign | sp.ceiling | sp.floor) and is_continuous(part)
 
     return expression.replace(can_jump, steps)
+
+
+def in_halves(expression: Any) -> Any:
+    """The same with comparisons of ``|x|`` as two of ``x``: a short time within them is then passed, not touched."""
+
+    def halves(relation: Any) -> Any:
+        above = relation if isinstance(relation.lhs, sp.Abs) else relation.reversed
+        (number,), bound = above.lhs.args, above.rhs
+        both = sp.And if isinstance(above, sp.Lt | sp.Le) else sp.Or
+        return both(above.func(number, bound), above.func(-number, bound))
+
+    def is_of_size(part: Any) -> bool:
+        is_order = isinstance(part, sp.Gt | sp.Ge | sp.Lt | sp.Le)
+        return is_order and any(isinstance(side, sp.Abs) for side in (part.lhs, part.rhs))
+
+    return expression.replace(is_of_size, halves) if expression.has(sp.Abs) else expression
 
 
 def _jumps(relation: Any, difference: Any) -> bool:

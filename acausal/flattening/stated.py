@@ -19,6 +19,7 @@ from acausal.flattening.silent import (
     Silent,
     discrete_side,
     has_jumps,
+    in_halves,
     in_steps,
     is_continuous,
     is_unknown,
@@ -277,7 +278,7 @@ class _Sorting:
 
     def _at_event(self, expression: Any) -> Any:
         """The value of a statement: a comparison that is watched has just changed, whatever rounding makes of it."""
-        pieces = literal(expression)
+        pieces = in_halves(literal(expression))
         replaced: dict[Any, Any] = {}
         for relation in pieces.atoms(Relational):
             for same in (relation, relation.reversed):
@@ -293,6 +294,7 @@ class _Sorting:
 
     def _truth(self, condition: Any) -> Any:
         """A condition whose comparisons of what changes continuously are hidden variables."""
+        condition = in_halves(condition)
         replaced = {
             r: sp.Gt(self._guard(r), HALF)
             for r in _in_order(condition.atoms(Relational))

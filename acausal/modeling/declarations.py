@@ -130,6 +130,7 @@ class Parameter(Declaration):
 class Variable(Declaration):
     """An unknown of time. ``start``, ``fixed``, ``nominal``, ``state`` as in `Start`.
 
+    The start of an array is a number for all of its elements, or one for each: ``start=[1.0, 2.0]``.
     Each may name another attribute of the component instead: ``start="y_start"`` a parameter,
     ``state="stateSelect"``, ``fixed="T0fixed"`` or ``nominal="s_nominal"`` an option.
 
@@ -155,7 +156,7 @@ class Variable(Declaration):
         if not isinstance(tear, str) or tear not in TEAR_SELECT:
             raise DeclarationError(f"tear={shown(tear)} must be one of {', '.join(TEAR_SELECT)}")
         need_text(state, f"{type(self).__name__}: state", DeclarationError)
-        self.start, self.fixed, self.nominal, self.state = start, fixed, nominal, state
+        self.start, self.fixed, self.nominal, self.state = _in_tuples(start), fixed, nominal, state
         self.tear = tear
 
 
@@ -256,6 +257,12 @@ class Input(Variable):
     def is_held(self) -> bool:
         """Whether, as an input of the model, it is held from sample to sample."""
         return self.kind != "real" if self.held is None else self.held
+
+
+def _in_tuples(value: Any) -> Any:
+    """Values of an array's elements as tuples; what else there is as it is."""
+    value = value.tolist() if isinstance(value, np.ndarray) else value
+    return tuple(map(_in_tuples, value)) if isinstance(value, list | tuple) else value
 
 
 def is_number(value: Any) -> bool:

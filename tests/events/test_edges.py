@@ -10,7 +10,7 @@ from acausal.components import blocks, electrical
 from acausal.events import Edges
 from tests.support.parts import Equations, model
 
-SPAN = 10.0
+SPAN, PI = 10.0, np.pi
 APART = 16 * np.finfo(float).eps * SPAN
 
 
@@ -137,6 +137,38 @@ FORMULAS = {
         [1.0, 2.0, 3.0, 5.0, 6.0, 7.0, 9.0],
         [4.0, 8.0],
     ),
+    "of a sine": (
+        lambda s: ac.where(ac.sin(PI * ac.time / 2) > 0.5, 1, 0, events=None),
+        [1 / 3, 5 / 3, 13 / 3, 17 / 3, 25 / 3, 29 / 3],
+        [],
+    ),
+    "of a cosine that runs backwards": (
+        lambda s: ac.where(1 - s.p * ac.cos(PI * (1 - ac.time / 2)) < 2, 1, 0, events=None),
+        [2 / 3, 10 / 3, 14 / 3, 22 / 3, 26 / 3],
+        [],
+    ),
+    "of a tangent": (
+        lambda s: ac.where(ac.tan(PI * ac.time / 8) > 1, 1, 0, events=None),
+        [2.0, 4.0],
+        [],
+    ),
+    "of a level that a sine does not reach": (
+        lambda s: ac.where(ac.sin(ac.time) > s.p, 1, 0, events=None),
+        [],
+        [],
+    ),
+    "sign of a cosine": (lambda s: ac.sign(ac.cos(PI * ac.time / 4)), [2.0, 6.0], []),
+    "a sine that is rectified": (lambda s: ac.Abs(ac.sin(PI * ac.time / 4)), [], [4.0, 8.0]),
+    "a sine that is clipped": (
+        lambda s: ac.minimum(ac.sin(PI * ac.time / 6), 0.5),
+        [],
+        [1.0, 5.0],
+    ),
+    "a sine that is clipped on both sides": (
+        lambda s: ac.maximum(ac.minimum(ac.sin(PI * ac.time / 6), 0.5), -0.5),
+        [],
+        [1.0, 5.0, 7.0],
+    ),
 }
 
 
@@ -146,6 +178,18 @@ def test_formulas(name):
     ts, are_jumps = walked(by_formula(formula, p=2.0))
     np.testing.assert_allclose(ts[are_jumps], jumps, rtol=1e-14)
     np.testing.assert_allclose(ts[~are_jumps], bends, rtol=1e-14)
+
+
+@pytest.mark.parametrize("level", [0.9999, 0.3, -0.2])
+def test_pulses_of_a_sine_are_seen_however_short_they_are(level):
+    system = by_formula(lambda s: ac.where(ac.sin(2 * PI * ac.time) > s.p, 1, 0), p=level)
+
+    def end(p):
+        return ac.simulate(system, SPAN, params={"p": p})["x"][-1]
+
+    np.testing.assert_allclose(end(level), SPAN * np.arccos(level) / PI, rtol=1e-9)
+    slope = -SPAN / PI / np.sqrt(1 - level**2)
+    np.testing.assert_allclose(jax.grad(end)(level), slope, rtol=1e-6)
 
 
 def test_a_threshold_behind_a_ramp_and_a_sum_is_found():
@@ -253,6 +297,9 @@ def test_a_model_without_sources_has_none_and_costs_nothing():
         (lambda s: ac.where(ac.time < 3, s.x, 2 * s.x, events=None), False),
         (lambda s: ac.where(s.x < 3, 1, 2, events=None), True),
         (lambda s: ac.Abs(s.x), True),
+        (lambda s: ac.Abs(ac.sin(ac.time)), False),
+        (lambda s: ac.Abs(ac.sin(ac.time) + ac.sin(2 * ac.time)), True),
+        (lambda s: ac.where(ac.cos(s.x) < 0.5, 1, 2, events=None), True),
     ],
 )
 def test_bends_that_depend_on_variables(formula, bends):

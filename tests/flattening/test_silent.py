@@ -44,7 +44,7 @@ class Within(ac.Component):
         lambda s: ac.where(s.x > s.limit, s.k, 0),
         lambda s: ac.where((s.x < s.limit) & (ac.time > 1), 1, s.k),
         lambda s: ac.where(s.x > 3, 0, ac.where(s.x > 2 * s.limit, s.k * s.x, 1)),
-        lambda s: ac.where(ac.sin(ac.time) > s.limit, 1, 0),
+        lambda s: ac.where(ac.sin(ac.time) + ac.sin(2 * ac.time) > s.limit, 1, 0),
         lambda s: ac.where(s.x**2 + ac.sin(s.limit * s.x) > 0, 1, 0),
     ],
 )
@@ -67,6 +67,7 @@ def test_a_parameter_without_gradient_is_named(case: Case) -> None:
         lambda s: ac.where(s.x > s.limit, s.x, ac.maximum(s.x, s.limit)),
         lambda s: ac.where(s.limit > s.k, 1, 0),
         lambda s: ac.where(ac.time > s.limit, 1, 0),
+        lambda s: ac.where(s.k * ac.sin(ac.time) > s.limit, 1, 0),
         lambda s: ac.where(ac.time - ac.floor(ac.time / s.k) * s.k > s.limit, 1, 0),
     ],
 )

@@ -1,6 +1,7 @@
 """Declarations, references and equations."""
 
 import math
+from collections.abc import Iterator
 
 import equinox as eqx
 import jax
@@ -133,3 +134,23 @@ def test_the_default_of_an_input_is_a_number():
     for wrong in ("three", ((1.0,), 2.0), jax.random.key(0)):
         with pytest.raises(ac.DeclarationError, match=r"default=.* must be a number"):
             ac.Input(default=wrong)
+
+
+@pytest.mark.parametrize("start", [[1.0, 2.0], (1.0, 2.0), np.array([1.0, 2.0])], ids=type)
+def test_the_start_of_an_array_is_a_number_for_each(start: object) -> None:
+    class Two(ac.Component):
+        x = ac.Variable(shape=2, start=start, fixed=True)
+
+        def equations(self) -> Iterator[ac.Eq]:
+            for x in self.x:
+                yield ac.Eq(ac.der(x), -x)
+
+    np.testing.assert_array_equal(ac.compile(Two()).initialize()["x"], [1.0, 2.0])
+
+
+def test_a_parameter_that_is_an_array_declares_its_shape() -> None:
+    class Matrix(ac.Component):
+        A = ac.Parameter(np.eye(2))
+
+    with pytest.raises(ac.DeclarationError, match=r"is an array; declare shape=\(2, 2\)"):
+        ac.compile(Matrix())

@@ -17,7 +17,7 @@ static void copy(const real *from, real *to, int n) {
 
 /* Discrete variables from those of the iteration before, by number k, and the conditions' numbers: 1 if nothing changes.
    Those within their band of zero become what m->e.forced says. At first all that disagree change at once, later the
-   first of them alone, and what is zero but for rounding stays. */
+   first of them alone, and what is zero but for rounding stays, unless its time is known. */
 static int once_more(Model *m, const real t, const real *u, const real *number, const real *band, const int k,
                      const real initial) {
     const int tens = k / DOUBTED < 6 ? k / DOUBTED : 6;
@@ -26,7 +26,7 @@ static int once_more(Model *m, const real t, const real *u, const real *number, 
     for (int i = 0; i < GUARDS; i++) {
         const real g = number[i];
         int holds = strict[i] ? g > 0 : g >= 0;
-        if (fabs(g) <= rounding) holds = m->d[i] > R(0.5);
+        if (!timed[i] && fabs(g) <= rounding) holds = m->d[i] > R(0.5);
         if (k < FORCED && fabs(g) <= band[i]) holds = m->e.forced[i];
         if (ticks[i] && initial > 0) holds = 0;
         m->e.holds[i] = (real)holds;

@@ -258,6 +258,53 @@ def test_a_circle_that_closes_later_is_named() -> None:
     assert "at an event 'a', 'b' change each other without end (x < 0.5)" in str(caught.value)
 
 
+class Blinks(ac.Component):
+    """A timer that starts itself again, counting."""
+
+    again = ac.Option("t0 = time")
+    x = ac.Variable(start=0.0, fixed=True)
+    t0 = ac.Discrete(0.0)
+    n = ac.Discrete(0, kind="int")
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), self.n)
+        counts = ac.Eq(self.n, ac.pre(self.n) + 1)
+        match self.again:
+            case "t0 = time":
+                yield ac.When(ac.time > self.t0 + 1, ac.Eq(self.t0, ac.time), counts)
+            case "t0 = pre(t0) + 1":
+                follows = ac.Eq(self.t0, ac.pre(self.t0) + 1)
+                yield ac.When(ac.time - self.t0 >= 1, follows, counts)
+            case _:
+                yield ac.When(ac.time > ac.pre(self.t0) + 1, ac.Eq(self.t0, ac.time), counts)
+
+
+@pytest.mark.parametrize("steps", [{}, {"dt": 0.01}], ids=str)
+@pytest.mark.parametrize("again", ["t0 = time", "t0 = pre(t0) + 1"])
+def test_a_condition_whose_time_moves_with_what_it_sets_is_a_circle(again: str, steps: Any) -> None:
+    with pytest.raises(ac.SimulationError, match=r"'t0', 'n' change each other without end"):
+        ac.simulate(ac.compile(Blinks(again=again)), (0.0, 3.5), **steps)
+
+
+def test_a_timer_that_starts_itself_again_by_what_was_before() -> None:
+    run = ac.simulate(ac.compile(Blinks(again="pre")), (0.0, 5.5))
+    np.testing.assert_allclose((run["n"][-1], run["x"][-1]), (5, 12.5))
+
+
+def test_a_band_is_seen_however_soon_it_is_passed() -> None:
+    class Passes(ac.Component):
+        x = ac.Variable(start=0.0, fixed=True)
+        inside, outside = ac.Discrete(0.0), ac.Discrete(0.0)
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), 1)
+            yield ac.When(ac.Abs(self.x - 3) < 1e-4, ac.Eq(self.inside, ac.time))
+            yield ac.When(ac.Abs(3 - self.x) >= 1e-4, ac.Eq(self.outside, ac.time))
+
+    run = ac.simulate(ac.compile(Passes()), (0.0, 5.0))
+    np.testing.assert_allclose((run["inside"][-1], run["outside"][-1]), (2.9999, 3.0001))
+
+
 @pytest.mark.parametrize("steps", [{}, {"dt": 0.01}, {"dt": 0.5}], ids=str)
 def test_a_ball_that_bounces_for_ever_is_stopped_and_named(steps: Any) -> None:
     with pytest.raises(ac.SimulationError, match="h < 0"):
