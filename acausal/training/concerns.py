@@ -10,7 +10,7 @@ import numpy as np
 from acausal._jax import compiled
 from acausal.analysis import in_switches
 from acausal.codegen import Values
-from acausal.errors import listing
+from acausal.errors import listing, percent
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training.happened import grazing
 from acausal.training.member import Trained
@@ -19,12 +19,17 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.rejections import SHORTER_STEPS
 
+UNEXPLAINED = 0.05
+"""A training without options should leave at most this part of its targets beside noise."""
+
 EXACT = 1e-100
 """A loss at which a model follows its record to roundoff, so that nothing needs to change."""
 
 
-def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
-    """Warnings about a training, one sentence each."""
+def concerns(
+    problem: Problem, start: Trainable, trained: Trained, *, whole: bool = False
+) -> Iterator[str]:
+    """Warnings about a training, one sentence each; ``whole``: whether it was to go on until records are explained."""
     diverged, epochs = trained.history.divergences, trained.history.epochs
     if diverged:
         yield (
@@ -36,7 +41,9 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
         yield "The trained model diverges over the whole record: its loss is infinite."
     elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained)):
         yield f"Training found nothing better than its start. {sentence}"
-    elif sentence := _no_better_than_the_mean(problem, trained.simulated):
+    elif (sentence := _no_better_than_the_mean(problem, trained.simulated)) or (
+        sentence := _unexplained(problem, trained.simulated) if whole else None
+    ):
         yield sentence
     if not problem.sequences.whole and (remembered := problem.system.remembered):
         yield (
@@ -73,17 +80,34 @@ def _long_steps(problem: Problem, trained: Trained) -> str | None:
 
 def _no_better_than_the_mean(problem: Problem, simulated: Simulated) -> str | None:
     """A sentence on a model that follows its records no better than a constant does, or None."""
-    records = problem.records
-    level = np.sqrt(len(problem.targets))
-    error = float(compiled(nrmse)(simulated.y, records.y, records.sigma, records.weight))
+    level, error = np.sqrt(len(problem.targets)), _error(problem, simulated)
     if error < level:
         return None
+    noise = noise_loss(problem.records)
     return (
         f"The trained model is no better than the targets' mean: its error is {error:.3g}, that of the mean "
-        f"{level:.3g}, that of the noise about {noise_loss(records):.2g} (in standard deviations, added up "
+        f"{level:.3g}, that of the noise about {noise:.2g} (in standard deviations, added up "
         "over targets). Do not use it: train longer, by another strategy, or from better parameters (params=...) and "
         "scales (input_scale=, output_scale=)."
     )
+
+
+def _unexplained(problem: Problem, simulated: Simulated) -> str | None:
+    """A sentence on a model that leaves much more of its records than their noise, or None."""
+    level, error = np.sqrt(len(problem.targets)), _error(problem, simulated)
+    noise = noise_loss(problem.records, simulated.y)
+    if error**2 <= noise**2 + (UNEXPLAINED * level) ** 2:
+        return None
+    return (
+        f"The trained model does not explain the record: it leaves {percent(error / level)} of the targets, the noise "
+        f"is {percent(noise / level)}. print(fit) says what is known of the cause."
+    )
+
+
+def _error(problem: Problem, simulated: Simulated) -> float:
+    """How far a model is from its records, in standard deviations of the targets, added up over these."""
+    records = problem.records
+    return float(compiled(nrmse)(simulated.y, records.y, records.sigma, records.weight))
 
 
 def _reasons(unmoved: Sequence[str], in_switches: Set[str], has_events: bool) -> Iterator[str]:

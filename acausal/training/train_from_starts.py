@@ -93,7 +93,7 @@ def run(
         LOGGER.info(
             "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
         )
-        for sentence in concerns(own, start, one):
+        for sentence in concerns(own, start, one, whole=options.strategy == "auto"):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
     described = options.described()
     linear = None if from_data is None else from_data.linear

@@ -396,6 +396,26 @@ def test_a_start_that_a_law_can_take_is_said_and_widens_its_band(sizes: tuple[fl
     assert (miss < 4 * band.sigma[seen]).all()
 
 
+def test_a_start_is_unknown_beside_a_law_that_is_finer_than_the_bumps_of_its_band() -> None:
+    t, rng = np.linspace(0.0, 30.0, 3001), np.random.default_rng(0)
+    charge = 0.54 - 0.02 * t - 0.15 / 1.3 * (1 - np.cos(1.3 * t))
+
+    def fine(z: Any) -> Any:
+        steps = np.tanh(25 * (z - 0.24)) + np.tanh(30 * (z + 0.11))
+        return 3 + 0.4 * z + 0.1 * steps
+
+    noisy = fine(charge) + 0.002 * rng.standard_normal(len(t))
+    data = ac.Data(t, {"i": 0.02 + 0.15 * np.sin(1.3 * t), "v": noisy})
+    fit = ac.fit(cell(), data, ["v"], progress=False)
+    known = fit.confidence()
+    assert known.starts == {"charge": ("law",)}
+    band = known.laws["law"]
+    seen = (band.x > fit.ranges["law"][0][0]) & (band.x < fit.ranges["law"][0][1])
+    miss = np.abs(band.law - fine(band.x))[seen]
+    assert miss.max() > 0.05
+    assert (miss < 4 * band.sigma[seen]).all()
+
+
 @pytest.mark.machines
 def test_a_start_that_is_trained_without_a_prior_is_said_to_be_taken_by_a_law() -> None:
     fit = ac.fit(cell(), cell_record(1.0, 0), ["v"], progress=False, x0="fit")

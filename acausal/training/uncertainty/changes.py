@@ -25,7 +25,8 @@ class Changes:
     """Directions in which a trained model may change, as numbers whose standard deviations are 1 without data.
 
     First come the bumps of all laws and the trained parameters, which all records have in common; then what each record
-    has for itself; then the directions along the networks' own weights, which say what a law can take of a parameter.
+    has for itself; then the directions along the networks' own weights, which say what a law can take of a parameter or
+    a start.
 
     Attributes:
         problem: what was trained. trainable: its result. params: its parameters and networks.
@@ -98,7 +99,8 @@ def changes(
     params, laws = problem.assemble(trainable), problem.networks
     bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
     heights = [np.full(len(bumped[n].centres), _size(params[n], seen[n])) for n in laws]
-    alone = not problem.modifiers.names  # then there is nothing that a law could take
+    begins = any(a is not None for a in (trainable.starts, trainable.states))
+    alone = not (problem.modifiers.names or begins)  # then there is nothing that a law could take
     return Changes(
         problem,
         trainable,

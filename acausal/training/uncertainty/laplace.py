@@ -12,8 +12,9 @@ correlated residuals count for less than one each.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -46,8 +47,14 @@ UNKNOWN = 0.9
 POINTS_EACH = 4
 """Points for each bump at which a later training compares a law with what is known."""
 
+FREE = 10.0
+"""So many of their deviations laws may change to take what a start changes."""
+
+OPEN = 0.1
+"""The smallest part of its prior deviation that is left of a start to be reported,"""
+
 SHARE = 0.3
-"""The smallest part of a law's deviation that a start must change to be reported."""
+"""and the smallest part of a law's deviation that it must change."""
 
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
@@ -83,7 +90,8 @@ def confidence(
     onward = change.deviations * move(blocks, noise.relative(left).ravel())[0]
     error = noise.relative(_step_error(problem, trainable))
     step_move = move(blocks, error.ravel())[1]
-    earlier = _earlier(change)
+    rows = _earlier(change)
+    earlier = [RecordJacobian(rows[:, change.common], np.zeros((len(rows), len(change.of_record))))]
     samples = noise.samples + sum(len(b.common) for b in earlier)
     alike = float(noise.count @ noise.alike / noise.count.sum())  # over all targets
     found = posterior_covariance([*blocks, *earlier], samples)
@@ -96,8 +104,8 @@ def confidence(
         [any(v > TAKEN for v in laws.values()) for laws in with_laws.values()], dtype=bool
     )
     known = np.where(taken, np.maximum(sigma, change.of_parameters), sigma)
-    starts = _start_moves(change, effects, earlier)
-    moves = np.stack([np.zeros(len(change.heights)), *starts.values()])
+    starts = _unknown_starts(change, effects, rows)
+    moves = np.stack([np.zeros(len(change.heights)), *(s.move for s in starts.values())])
     places = split(change.bumped, np.arange(len(onward)))[0]
     bands = {
         name: _band(change, name, onward[own], covariance[np.ix_(own, own)], moves[:, own])
@@ -218,13 +226,12 @@ def _step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N 
     return np.asarray(fine) - np.asarray(known)
 
 
-def _earlier(change: Changes) -> list[RecordJacobian]:
-    """What the training knew before, as one more record; none if that is nothing."""
-    if (prior := change.problem.prior) is None:
-        return []
+def _earlier(change: Changes) -> Float[np.ndarray, "rows n"]:
+    """The Jacobian of what the training knew before, which is one more record; no rows if that is nothing."""
     start = jnp.zeros(len(change.scale))
-    rows = np.asarray(jax.jit(jax.jacfwd(lambda z: prior.misfit(change(z)[1])))(start))
-    return [RecordJacobian(rows[:, change.common], np.zeros((len(rows), len(change.of_record))))]
+    if (prior := change.problem.prior) is None:
+        return np.zeros((0, len(start)))
+    return np.asarray(jax.jit(jax.jacfwd(lambda z: prior.misfit(change(z)[1])))(start))
 
 
 def _with_laws(
@@ -241,24 +248,43 @@ def _with_laws(
     }
 
 
-def _start_moves(
-    change: Changes, effects: Float[np.ndarray, "rows n"], earlier: Sequence[RecordJacobian]
-) -> dict[str, Float[np.ndarray, " n_bumps"]]:
-    """By state whose start is not measured, how the laws change with it where they can take any part of it.
+class _Start(NamedTuple):
+    """What is not known of a start that is not measured.
 
-    The change is that of all bumps where the starts of all records move together, by one standard deviation.
+    Attributes:
+        unknown: the deviation that is left of it, as a part of the prior one.
+        move: how the bumps of all laws change with that deviation.
+    """
+
+    unknown: float
+    move: Float[np.ndarray, " n_bumps"]
+
+
+def _unknown_starts(
+    change: Changes,
+    effects: Float[np.ndarray, "rows n"],
+    earlier: Float[np.ndarray, "rows_before n"],
+) -> dict[str, _Start]:
+    """By state whose start is not measured, what is left unknown of it as laws can take its part.
+
+    They can by bumps and along their own weights: a law that moves along its argument, as the voltage of a cell with
+    the charge that it began with, changes by its slope, which bumps are too wide for. The starts of all records move
+    together.
     """
     n = len(change.heights)
-    if not n:
+    starts = _common_starts(change, effects)
+    if not (n and starts):
         return {}
-    rows = [part.common[:, :n] for part in earlier]
-    bumps = np.concatenate([effects[:, :n], *rows])
-    known = bumps.T @ bumps + np.eye(n)
-    found = dict[str, Float[np.ndarray, " n_bumps"]]()
-    for state, column in _common_starts(change, effects).items():
-        column = np.concatenate([column, np.zeros(len(bumps) - len(column))])
-        if correlation_with(column, bumps) > TAKEN:
-            found[state] = change.heights * np.linalg.solve(known, bumps.T @ column)
+    places = [np.arange(n), *(np.r_[own] for own in change.places_along.values())]
+    laws = np.concatenate(places)
+    able = np.concatenate([effects[:, laws], earlier[:, laws], np.eye(len(laws)) / FREE])
+    found = dict[str, _Start]()
+    for state, column in starts.items():
+        column = np.concatenate([column, np.zeros(len(able) - len(column))])
+        taken = np.linalg.lstsq(able, column, rcond=None)[0]
+        unknown = 1 / np.hypot(1, np.linalg.norm(column - able @ taken))
+        bumps = np.linalg.lstsq(able[:, :n], column, rcond=None)[0]
+        found[state] = _Start(float(unknown), unknown * change.heights * bumps)
     return found
 
 
@@ -287,18 +313,19 @@ def _common_starts(
 
 
 def _taken_by(
-    starts: Mapping[str, Float[np.ndarray, " n_bumps"]],
+    starts: Mapping[str, _Start],
     places: Mapping[str, Int[np.ndarray, " n"]],
     variance: Float[np.ndarray, " n_common"],
 ) -> dict[str, tuple[str, ...]]:
-    """By state, the laws that change with its start by a good part of what is not known of them anyway."""
+    """By state whose start is hardly known, the laws that change with it by much of what is not known of them."""
     found = {
         state: tuple(
             name
             for name, own in places.items()
-            if np.linalg.norm(move[own]) > SHARE * np.sqrt(np.sum(variance[own]))
+            if np.linalg.norm(start.move[own]) > SHARE * np.sqrt(np.sum(variance[own]))
         )
-        for state, move in starts.items()
+        for state, start in starts.items()
+        if start.unknown > OPEN
     }
     return {state: laws for state, laws in found.items() if laws}
 
