@@ -24,6 +24,6 @@ from acausal.flattening.reading import (
     read_statements as read_statements,
 )
 from acausal.flattening.sums import Statement as Statement
-from acausal.flattening.swing import WAVES as WAVES, swing as swing
 from acausal.flattening.template import Integers as Integers, Template as Template
 from acausal.flattening.templates import FEW_VARIANTS as FEW_VARIANTS
+from acausal.flattening.waves import WAVES as WAVES, swing as swing

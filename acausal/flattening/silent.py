@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from acausal.flattening.reading import read_statements
-from acausal.flattening.swing import swing
+from acausal.flattening.waves import swing
 from acausal.modeling import (
     Component,
     Discrete,

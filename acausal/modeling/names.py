@@ -206,8 +206,8 @@ def by_element(
 def _divided(elements: NDArray[np.str_], value: Any, what: str) -> dict[str, Any]:
     """By element, its part of the values of an array."""
     pair = isinstance(value, tuple) and len(value) == 2 and np.ndim(value[0]) > 0
-    times, numbers = value if pair else (None, value)
-    numbers = numbers if hasattr(numbers, "ndim") else np.asarray(numbers)
+    times, given = value if pair else (None, value)
+    numbers: Any = given if hasattr(given, "ndim") else np.asarray(given)
     shape = np.shape(numbers)
     if shape[max(len(shape) - elements.ndim, 0) :] != elements.shape:
         raise DataError(

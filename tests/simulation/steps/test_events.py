@@ -3,11 +3,13 @@
 from collections.abc import Iterator
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 import sympy as sp
 
 import acausal as ac
+from acausal.events import event_iteration
 from tests.support.hybrid import Ball, Sampled, Thermostat
 
 
@@ -289,6 +291,31 @@ def test_a_condition_whose_time_moves_with_what_it_sets_is_a_circle(again: str, 
 def test_a_timer_that_starts_itself_again_by_what_was_before() -> None:
     run = ac.simulate(ac.compile(Blinks(again="pre")), (0.0, 5.5))
     np.testing.assert_allclose((run["n"][-1], run["x"][-1]), (5, 12.5))
+
+
+def test_values_that_differ_by_rounding_alone_end_an_event(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A value is computed to find it, and again for its derivatives, perhaps with other rounding errors."""
+
+    class Follows(ac.Component):
+        x = ac.Variable(start=1.0, fixed=True)
+        last = ac.Discrete(0.0)
+        n = ac.Discrete(0, kind="int")
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), 1)
+            yield ac.Eq(self.last, 1.1 * self.x + ac.pre(self.n))
+            yield ac.When(self.x > 2, ac.Eq(self.n, ac.pre(self.n) + 1))
+
+    def rounded(events: Any, *args: Any) -> Any:
+        x, d = after_pass(events, *args)
+        return x, jnp.where(events.exact, d, d * (1 + 1e-15))
+
+    after_pass = event_iteration.after_pass
+    monkeypatch.setattr(event_iteration, "after_pass", rounded)
+    run = ac.simulate(ac.compile(Follows()), 2.0)
+    np.testing.assert_allclose((run["n"][-1], run["last"][-1]), (1, 3.2))
 
 
 def test_a_band_is_seen_however_soon_it_is_passed() -> None:
