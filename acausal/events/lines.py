@@ -140,7 +140,9 @@ def _compared(node: Any) -> list[Any]:
 
 
 def _ends(node: Any) -> list[Any]:
-    """What an extreme chooses its value from, of extremes within it too; itself, for anything else."""
+    """What an extreme or a size chooses its value from, of extremes within it too; itself, for anything else."""
+    if isinstance(node, sp.Abs):
+        return [node.args[0], -node.args[0]]
     return [end for a in node.args for end in _ends(a)] if isinstance(node, EXTREMES) else [node]
 
 
@@ -205,9 +207,9 @@ class Walk:
 
     def _zero(self, number: Any) -> Ahead:
         """Where a number is zero: a line, or a wave of a line about a level that does not move."""
-        line, swings = self.line(number), self._swing(number)
-        if line is not None and not line.constant:
-            return self._at(line.at_zero, line.rate)
+        if (line := self.line(number)) is not None:
+            return NOTHING if line.constant else self._at(line.at_zero, line.rate)
+        swings = self._swing(number)
         return NOTHING if swings is None else self._passing(*swings)
 
     def _swing(self, number: Any) -> tuple[Any, Any, Line] | None:

@@ -68,6 +68,11 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
             key = form_number, index
             if key not in start_of_form:
                 start = getattr(component, d.start) if isinstance(d.start, str) else d.start
+                shape = component._node.shape(d.name, d)
+                if isinstance(d.start, tuple) and shape and len(d.start) > shape[0]:
+                    raise DeclarationError(
+                        f"the start of '{d.name}' has {len(d.start)} numbers for {shape[0]} elements"
+                    )
                 value = element(start, path, d.name)
                 if not is_bound(value):
                     declared.start[variable] = float(value)

@@ -196,7 +196,7 @@ def _changes(relation: Any) -> bool:
     """Whether a relation can change in a run, at a time that is not known ahead (see `acausal.codegen.Edges`)."""
     if any(map(is_unknown, relation.free_symbols)):
         return True
-    number = relation.lhs - relation.rhs
+    number = literal(relation.lhs - relation.rhs)
     floors = number.atoms(sp.floor)
     lines = [number.xreplace({f: sp.Dummy() for f in floors}), *(f.args[0] for f in floors)]
     if (found := swing(number)) is not None and not floors:
@@ -249,14 +249,20 @@ def in_halves(expression: Any) -> Any:
     """The same with comparisons of ``|x|`` as two of ``x``: a short time within them is then passed, not touched."""
 
     def halves(relation: Any) -> Any:
-        above = relation if isinstance(relation.lhs, sp.Abs) else relation.reversed
-        (number,), bound = above.lhs.args, above.rhs
-        both = sp.And if isinstance(above, sp.Lt | sp.Le) else sp.Or
-        return both(above.func(number, bound), above.func(-number, bound))
+        number, level = relation.lhs - relation.rhs, sp.Dummy()
+        (size,) = relation.atoms(sp.Abs)
+        whole = number.xreplace({size: level})
+        slope = whole.diff(level)
+        if not (slope.is_positive or slope.is_negative):
+            return relation
+        bound = -whole.xreplace({level: sp.S.Zero}) / slope
+        order = relation.func if slope.is_positive else relation.reversed.func
+        both = sp.And if order in (sp.Lt, sp.Le) else sp.Or
+        return both(order(size.args[0], bound), order(-size.args[0], bound))
 
     def is_of_size(part: Any) -> bool:
         is_order = isinstance(part, sp.Gt | sp.Ge | sp.Lt | sp.Le)
-        return is_order and any(isinstance(side, sp.Abs) for side in (part.lhs, part.rhs))
+        return is_order and len(part.atoms(sp.Abs)) == 1
 
     return expression.replace(is_of_size, halves) if expression.has(sp.Abs) else expression
 

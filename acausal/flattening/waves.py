@@ -25,4 +25,4 @@ def swing(expression: sp.Expr) -> Swing | None:
     (wave,) = waves
     size = expression.subs(wave, level).diff(level)
     middle = expression.subs(wave, sp.S.Zero)
-    return None if size.has(level) else Swing(middle, size, wave)
+    return None if size == 0 or size.has(level) else Swing(middle, size, wave)

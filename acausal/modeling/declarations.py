@@ -261,7 +261,7 @@ class Input(Variable):
 
 def _in_tuples(value: Any) -> Any:
     """Values of an array's elements as tuples; what else there is as it is."""
-    value = value.tolist() if isinstance(value, np.ndarray) else value
+    value = value.tolist() if getattr(value, "ndim", 0) else value
     return tuple(map(_in_tuples, value)) if isinstance(value, list | tuple) else value
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from functools import reduce
+from operator import getitem
 from typing import Any
 
 import numpy as np
@@ -13,7 +15,7 @@ from numpy.typing import NDArray
 from acausal.errors import DataError, nearest, shown
 from acausal.modeling.declarations import element_names
 
-ELEMENT = re.compile(r"\[\d+(,\d+)*\]$")
+INDICES = re.compile(r"\d+(,\d+)*\]")
 """How the name of an array's element ends."""
 
 
@@ -21,7 +23,7 @@ class ByName(ABC):
     """What can be read by name, as a pandas DataFrame can.
 
     ``thing["a"]`` is one column, of an array one for each element; ``thing[["a", "b"]]`` has two columns, on its last
-    axis; ``"a" in thing`` asks whether there is such a name; iteration goes through the names.
+    axis; ``"a" in thing`` asks whether there is such a column; iteration goes through their names.
     """
 
     @property
@@ -162,9 +164,9 @@ def by_name(given: Any, argument: str, example: str) -> dict[str, Any]:
 
 def elements_of(name: str, known: Iterable[str]) -> NDArray[np.str_] | None:
     """The names of an array's elements, in its shape; None where the known names have no whole array of that name."""
-    begin = f"{name}["
-    found = {n for n in known if n.startswith(begin)}
-    indices = [tuple(map(int, n[len(begin) : -1].split(","))) for n in found if ELEMENT.search(n)]
+    begin = len(name) + 1
+    found = {n for n in known if n.startswith(f"{name}[") and INDICES.fullmatch(n, begin)}
+    indices = [tuple(map(int, n[begin:-1].split(","))) for n in found]
     if len({len(index) for index in indices}) != 1:
         return None
     shape = tuple(map(max, zip(*indices, strict=True)))
@@ -173,13 +175,15 @@ def elements_of(name: str, known: Iterable[str]) -> NDArray[np.str_] | None:
 
 
 def by_element(
-    given: Mapping[str, Any], known: Collection[str], argument: str
+    given: Mapping[str, Any], known: Collection[str], argument: str, *, sampled: bool = False
 ) -> Mapping[str, Any]:
     """The same, arrays that are given as a whole by their elements: ``{"x": [1, 2]}`` as ``{"x[1]": 1, "x[2]": 2}``.
 
     Arguments:
-        given: by name, what belongs to it; of an array, with its shape as last axes. So has the second of a pair.
+        given: by name, what belongs to it; of an array, nested lists of its shape, or numbers with its shape as last
+            axes.
         known: the names that there are. argument: what is given, for messages.
+        sampled: whether it may be a pair of times and such numbers.
 
     Raises:
         DataError: for another shape, and for an element that is given twice.
@@ -190,11 +194,8 @@ def by_element(
     found: dict[str, Any] = {}
     for name, value in given.items():
         elements = None if name in known else elements_of(name, known)
-        one = (
-            {name: value}
-            if elements is None
-            else _divided(elements, value, f"{argument}: '{name}'")
-        )
+        what = f"{argument}: '{name}'"
+        one = {name: value} if elements is None else _divided(elements, value, what, sampled)
         if twice := found.keys() & one.keys():
             raise DataError(
                 f"{argument}: '{min(twice)}' is given twice, by itself and within its array."
@@ -203,18 +204,34 @@ def by_element(
     return found
 
 
-def _divided(elements: NDArray[np.str_], value: Any, what: str) -> dict[str, Any]:
+def _divided(elements: NDArray[np.str_], value: Any, what: str, sampled: bool) -> dict[str, Any]:
     """By element, its part of the values of an array."""
-    pair = isinstance(value, tuple) and len(value) == 2 and np.ndim(value[0]) > 0
-    times, given = value if pair else (None, value)
-    numbers: Any = given if hasattr(given, "ndim") else np.asarray(given)
-    shape = np.shape(numbers)
-    if shape[max(len(shape) - elements.ndim, 0) :] != elements.shape:
+    shape, places = elements.shape, [*np.ndindex(elements.shape)]
+    if _is_nested(value, shape):
+        return {str(elements[i]): reduce(getitem, i, value) for i in places}
+    if callable(value):
         raise DataError(
-            f"{what} is an array of shape {elements.shape}; its values have the shape {shape}."
+            f"{what} is an array of shape {shape}; give a list of one for each element."
         )
-    parts = {elements[i]: numbers[(..., *i)] for i in np.ndindex(elements.shape)}
-    return {str(n): (times, part) if pair else part for n, part in parts.items()}
+    if sampled and isinstance(value, tuple) and len(value) == 2:
+        times, samples = value
+        parts = _divided(elements, samples, what, False)
+        return {name: (times, part) for name, part in parts.items()}
+    try:
+        numbers: Any = value if hasattr(value, "aval") else np.asarray(value)
+    except ValueError:
+        raise DataError(f"{what} is an array of shape {shape}, not {shown(value)}.") from None
+    if (own := np.shape(numbers))[max(len(own) - len(shape), 0) :] != shape:
+        raise DataError(f"{what} is an array of shape {shape}; its values have the shape {own}.")
+    return {str(elements[i]): numbers[(..., *i)] for i in places}
+
+
+def _is_nested(value: Any, shape: tuple[int, ...]) -> bool:
+    """Whether lists or tuples in each other have a shape, with something that has none in each place."""
+    if not shape:
+        return not isinstance(value, list | tuple) and getattr(value, "ndim", 0) == 0
+    is_list = isinstance(value, list | tuple) and len(value) == shape[0]
+    return is_list and all(_is_nested(part, shape[1:]) for part in value)
 
 
 def antiderivatives(name: str) -> tuple[str, ...]:

@@ -129,7 +129,7 @@ def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
         n: (ts, samples if unit is None else convert(samples, unit, system.unit(n), f"'{n}'"))
         for n, (ts, samples, unit) in read_series(series).items()
     }
-    return by_element({**found, **pairs}, known, "inputs")
+    return by_element({**found, **pairs}, known, "inputs", sampled=True)
 
 
 def functions_of_time(

@@ -14,13 +14,13 @@ from acausal.errors import listing, percent
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training.happened import grazing
 from acausal.training.member import Trained
-from acausal.training.objective.losses import noise_loss, nrmse
+from acausal.training.objective.losses import LOSSES, noise_loss, nrmse
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.rejections import SHORTER_STEPS
 
-UNEXPLAINED = 0.05
-"""A training without options should leave at most this part of its targets beside noise."""
+UNEXPLAINED, MUCH = 0.05, 1.3
+"""A training without options should leave at most this part of its targets, beside so many times their noise."""
 
 EXACT = 1e-100
 """A loss at which a model follows its record to roundoff, so that nothing needs to change."""
@@ -93,10 +93,12 @@ def _no_better_than_the_mean(problem: Problem, simulated: Simulated) -> str | No
 
 
 def _unexplained(problem: Problem, simulated: Simulated) -> str | None:
-    """A sentence on a model that leaves much more of its records than their noise, or None."""
+    """A sentence on a model that leaves much more of its records than their noise, or None; of the usual loss."""
+    if problem.loss is not LOSSES["nrmse"]:
+        return None
     level, error = np.sqrt(len(problem.targets)), _error(problem, simulated)
     noise = noise_loss(problem.records, simulated.y)
-    if error**2 <= noise**2 + (UNEXPLAINED * level) ** 2:
+    if error**2 <= (MUCH * noise) ** 2 + (UNEXPLAINED * level) ** 2:
         return None
     return (
         f"The trained model does not explain the record: it leaves {percent(error / level)} of the targets, the noise "

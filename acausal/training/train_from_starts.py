@@ -93,7 +93,9 @@ def run(
         LOGGER.info(
             "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
         )
-        for sentence in concerns(own, start, one, whole=options.strategy == "auto"):
+        limited = one.interrupted or options.epochs is not None
+        whole = options.automatic and options.sample_weights is None and not limited
+        for sentence in concerns(own, start, one, whole=whole):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
     described = options.described()
     linear = None if from_data is None else from_data.linear

@@ -159,6 +159,11 @@ FORMULAS = {
     ),
     "sign of a cosine": (lambda s: ac.sign(ac.cos(PI * ac.time / 4)), [2.0, 6.0], []),
     "a sine that is rectified": (lambda s: ac.Abs(ac.sin(PI * ac.time / 4)), [], [4.0, 8.0]),
+    "of the size of a sine": (
+        lambda s: ac.where(ac.Abs(ac.sin(PI * ac.time / 6)) > 0.5, 1, 0, events=None),
+        [1.0, 5.0, 7.0],
+        [6.0],
+    ),
     "a sine that is clipped": (
         lambda s: ac.minimum(ac.sin(PI * ac.time / 6), 0.5),
         [],

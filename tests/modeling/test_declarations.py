@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 import sympy as sp
@@ -136,7 +137,9 @@ def test_the_default_of_an_input_is_a_number():
             ac.Input(default=wrong)
 
 
-@pytest.mark.parametrize("start", [[1.0, 2.0], (1.0, 2.0), np.array([1.0, 2.0])], ids=type)
+@pytest.mark.parametrize(
+    "start", [[1.0, 2.0], (1.0, 2.0), np.array([1.0, 2.0]), jnp.array([1, 2])], ids=type
+)
 def test_the_start_of_an_array_is_a_number_for_each(start: object) -> None:
     class Two(ac.Component):
         x = ac.Variable(shape=2, start=start, fixed=True)
@@ -154,3 +157,15 @@ def test_a_parameter_that_is_an_array_declares_its_shape() -> None:
 
     with pytest.raises(ac.DeclarationError, match=r"is an array; declare shape=\(2, 2\)"):
         ac.compile(Matrix())
+
+
+def test_a_start_has_no_more_numbers_than_elements() -> None:
+    class Two(ac.Component):
+        x = ac.Variable(shape=2, start=[1.0, 2.0, 3.0])
+
+        def equations(self) -> Iterator[ac.Eq]:
+            for x in self.x:
+                yield ac.Eq(ac.der(x), -x)
+
+    with pytest.raises(ac.DeclarationError, match="'x' has 3 numbers for 2 elements"):
+        ac.compile(Two())

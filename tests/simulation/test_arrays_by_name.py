@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.modeling.names import by_element, elements_of
 
 K = np.array([1.0, 2.0, 3.0])
 X0 = np.array([1.0, -2.0, 3.0])
@@ -46,6 +47,25 @@ def test_a_whole_array_is_given_and_read(system: ac.System) -> None:
     assert run["A"].shape == (len(run.t), 2, 3)
     np.testing.assert_array_equal(run["A"][:, 1, 2], run["A[2,3]"])
     np.testing.assert_array_equal(run[["x[2]", "x[1]"]], run["x"][:, 1::-1])
+
+
+def test_lists_hold_anything_that_an_element_takes(system: ac.System) -> None:
+    def end(k: jax.Array | float) -> jax.Array:
+        run = ac.simulate(system, 1.0, dt=0.02, inputs=NO, x0={"x": X0}, params={"k": [k, 2, 3]})
+        return run["x"][-1, 0]
+
+    np.testing.assert_allclose(jax.grad(end)(1.0), -np.exp(-1), rtol=1e-5)
+    functions = [jnp.sin, ac.Signal([0, 1], [2, 2]), 3.0]
+    run = ac.simulate(system, 1.0, dt=0.02, inputs={"u": functions}, x0={"x": X0})
+    np.testing.assert_allclose(run["u"][-1], [np.sin(1), 2, 3])
+
+
+def test_elements_of_parts_are_no_array() -> None:
+    known = ["cell[1].x[1]", "cell[2].x[1]", "x[1]", "x[2]", "y[2]"]
+    assert elements_of("cell", known) is elements_of("y", known) is None
+    assert elements_of("x", known).tolist() == ["x[1]", "x[2]"]
+    rows = by_element({"x": ((1, 2),)}, ["x[1,1]", "x[1,2]"], "params")
+    assert rows == {"x[1,1]": 1, "x[1,2]": 2}
 
 
 @pytest.mark.parametrize(
@@ -87,6 +107,10 @@ def test_a_record_and_a_point_of_rest(system: ac.System) -> None:
         (lambda s: ac.simulate(s, 1.0, inputs={"u": ([0.0, 1.0], [[1.0, 2.0], [1.0, 2.0]])}),
          "inputs: 'u' is an array of shape (3,); its values have the shape (2, 2)."),
         (lambda s: ac.simulate(s, 1.0, inputs=NO, x0={"x": [1.0, np.nan, 2.0]}), "x[2]"),
+        (lambda s: ac.simulate(s, 1.0, inputs={"u": lambda t: np.zeros(3)}),
+         "inputs: 'u' is an array of shape (3,); give a list of one for each element."),
+        (lambda s: ac.simulate(s, 1.0, inputs={"u": [[0.0], [1.0, 2.0]]}),
+         "inputs: 'u' is an array of shape (3,), not [[0.0], [1.0, 2.0]]."),
         (lambda s: ac.simulate(s, 1.0, inputs=NO)["y"], "The model has no variable 'y'"),
         (lambda s: ac.simulate(s, 1.0, inputs=NO)["x[4]"], "The model has no variable 'x[4]'"),
     ],

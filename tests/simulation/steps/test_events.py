@@ -325,7 +325,7 @@ def test_a_band_is_seen_however_soon_it_is_passed() -> None:
 
         def equations(self) -> Iterator[Any]:
             yield ac.Eq(ac.der(self.x), 1)
-            yield ac.When(ac.Abs(self.x - 3) < 1e-4, ac.Eq(self.inside, ac.time))
+            yield ac.When(2 * ac.Abs(self.x - 3) - 2e-4 < 0, ac.Eq(self.inside, ac.time))
             yield ac.When(ac.Abs(3 - self.x) >= 1e-4, ac.Eq(self.outside, ac.time))
 
     run = ac.simulate(ac.compile(Passes()), (0.0, 5.0))
