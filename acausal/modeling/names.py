@@ -192,10 +192,10 @@ def by_element(
     if known.issuperset(given):
         return given
     found: dict[str, Any] = {}
-    for name, value in given.items():
-        elements = None if name in known else elements_of(name, known)
-        what = f"{argument}: '{name}'"
-        one = {name: value} if elements is None else _divided(elements, value, what, sampled)
+    for name in names_in(given, argument):
+        one, elements = {name: given[name]}, None if name in known else elements_of(name, known)
+        if elements is not None:
+            one = _divided(elements, given[name], f"{argument}: '{name}'", sampled)
         if twice := found.keys() & one.keys():
             raise DataError(
                 f"{argument}: '{min(twice)}' is given twice, by itself and within its array."

@@ -102,6 +102,8 @@ def test_a_record_and_a_point_of_rest(system: ac.System) -> None:
          "x0: 'x' is an array of shape (3,); its values have the shape (2,)."),
         (lambda s: ac.simulate(s, 1.0, inputs=NO, x0={"x": X0, "x[1]": 1.0}),
          "x0: 'x[1]' is given twice, by itself and within its array."),
+        (lambda s: ac.simulate(s, 1.0, inputs=NO, params={1: 1.0}), "params: 1 is not a name"),
+        (lambda s: ac.operating_point(s, inputs={None: 1.0}), "inputs: None is not a name"),
         (lambda s: ac.simulate(s, 1.0, inputs=NO, params={"k": 1.0}),
          "params: 'k' is an array of shape (3,); its values have the shape ()."),
         (lambda s: ac.simulate(s, 1.0, inputs={"u": ([0.0, 1.0], [[1.0, 2.0], [1.0, 2.0]])}),

@@ -278,14 +278,13 @@ def _unknown_starts(
     places = [np.arange(n), *(np.r_[own] for own in change.places_along.values())]
     laws = np.concatenate(places)
     able = np.concatenate([effects[:, laws], earlier[:, laws], np.eye(len(laws)) / FREE])
-    found = dict[str, _Start]()
-    for state, column in starts.items():
-        column = np.concatenate([column, np.zeros(len(able) - len(column))])
-        taken = np.linalg.lstsq(able, column, rcond=None)[0]
-        unknown = 1 / np.hypot(1, np.linalg.norm(column - able @ taken))
-        bumps = np.linalg.lstsq(able[:, :n], column, rcond=None)[0]
-        found[state] = _Start(float(unknown), unknown * change.heights * bumps)
-    return found
+    columns = np.stack([*starts.values()], axis=1)
+    columns = np.concatenate([columns, np.zeros((len(able) - len(columns), len(starts)))])
+    left = columns - able @ np.linalg.lstsq(able, columns, rcond=None)[0]
+    unknown = 1 / np.hypot(1, np.linalg.norm(left, axis=0))
+    moves = np.linalg.lstsq(able[:, :n], columns, rcond=None)[0] * unknown
+    rows = zip(starts, unknown.tolist(), moves.T, strict=True)
+    return {state: _Start(part, change.heights * move) for state, part, move in rows}
 
 
 def _common_starts(
