@@ -98,6 +98,7 @@ def test_a_stiff_model_needs_collocation() -> None:
     np.testing.assert_allclose(plan.states["x"][1:], 2.0 / (1 + 1e-3), rtol=1e-4)
 
 
+@pytest.mark.filterwarnings("ignore:.* does not explain the record")  # as friction is not viscous
 @pytest.mark.slow
 def test_a_learned_friction_leads_the_arm_better_than_a_viscous_one() -> None:
     found = study.compared()
