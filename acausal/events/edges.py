@@ -7,7 +7,7 @@ the present time, with traced parameters, and it can be differentiated by them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -39,18 +39,16 @@ from acausal.codegen import (
     read_elements,
 )
 from acausal.events.lines import (
-    BENT,
     NOTHING,
     PART_OF_PERIOD,
     Ahead,
     Line,
     Walk,
     has_edges,
-    is_foreseen,
-    is_straight,
+    merged,
 )
 from acausal.events.zero_crossings import arrays_for
-from acausal.flattening import WAVES, LeavesCaches
+from acausal.flattening import BENT, WAVES, LeavesCaches, is_foreseen, is_straight
 from acausal.modeling import time
 
 
@@ -286,7 +284,7 @@ class _Point:
         self.lines: list[Line | None] = [None] * n
         held = program.discrete_start if d is None else d
         for array, value in ((ZERO, jnp.zeros(())), (DISCRETE, jnp.asarray(held))):
-            self.values[array], self.lines[array] = value, Line(value, 0.0)
+            self.values[array], self.lines[array] = value, Line(value)
 
     def walk(self, arguments: Arguments) -> Walk:
         """A walk through a formula."""
@@ -297,39 +295,38 @@ class _Point:
         }
         arguments = replace(arguments, variables=tuple(known.items()))
         now = fill(arguments, self.packed, self.values, self.later)
-        lines: dict[Any, Line | None] = {s: Line(now[s], 0.0) for s, _ in arguments.parameters}
+        lines: dict[Any, Line | None] = {s: Line(now[s]) for s, _ in arguments.parameters}
         lines |= {time: Line(0.0, 1.0), **{s: self._line(g) for s, g in known.items()}}
         return Walk(now, lines, self.t, self.later)
 
     def add(self, part: _Part, one: Accumulate) -> None:
         """Compute a sum."""
         line, terms = self._line(one.values), read_elements(one.values, self.values)
-        if line is not None:
-            rate = line.rate if line.constant else add_up(one, line.rate)
-            line = Line(add_up(one, line.at_zero), rate)
+        if line is not None:  # waves, added up, are none
+            line = (
+                None
+                if line.wave
+                else merged(
+                    [line], lambda values: add_up(one, jnp.broadcast_to(values[0], terms.shape))
+                )
+            )
         self.fill(part, add_up(one, terms), line)
 
     def fill(self, part: _Part, value: Any, line: Line | None) -> None:
         """Keep a value, and its line."""
         assert part.fills is not None
         shape = () if part.formula.size == 1 else (part.formula.size,)
-        if line is not None:
-            rate = line.rate if line.constant else jnp.broadcast_to(line.rate, shape)
-            line = Line(jnp.broadcast_to(line.at_zero, shape), rate)
+        line = merged([line], lambda values: jnp.broadcast_to(values[0], shape))
         self.values[part.fills], self.lines[part.fills] = jnp.broadcast_to(value, shape), line
 
     def _line(self, gather: Gather) -> Line | None:
         """The line of what is read."""
-        own = {s: self.lines[s] for s in gather.sources}
-        lines = {s: line for s, line in own.items() if line is not None}
-        if len(lines) < len(own):
-            return None
-        empty: list[Any] = [None] * len(self.values)
-        at_zero, rate = empty.copy(), empty.copy()
-        for s, line in lines.items():
-            at_zero[s] = line.at_zero
-            rate[s] = jnp.zeros_like(line.at_zero) if line.constant else line.rate
-        constant = all(line.constant for line in lines.values())
-        return Line(
-            read_elements(gather, at_zero), 0.0 if constant else read_elements(gather, rate)
-        )
+        sources = list(dict.fromkeys(gather.sources))
+
+        def read(values: Sequence[Any]) -> Any:
+            arrays: list[Any] = [None] * len(self.values)
+            for s, value in zip(sources, values, strict=True):
+                arrays[s] = jnp.broadcast_to(value, jnp.shape(self.values[s]))
+            return read_elements(gather, arrays)
+
+        return merged([self.lines[s] for s in sources], read)

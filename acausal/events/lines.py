@@ -7,8 +7,9 @@ edge in its middle, lest a step of the solver leaps over it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from itertools import combinations, product
+from collections.abc import Callable, Sequence
+from functools import reduce
+from operator import mul
 from typing import Any, NamedTuple
 
 import jax
@@ -18,29 +19,20 @@ from jax.typing import ArrayLike
 from sympy.core.relational import Relational
 
 from acausal.codegen import ModuleValue, evaluate
-from acausal.flattening import WAVES, swing
+from acausal.flattening import BENT, CHOOSING, EXTREMES, SIGNS, STEPS, WAVES, compared
 from acausal.modeling import ModuleCall, time
 
 PART_OF_PERIOD = 0.125
 """The longest step, as a part of the period of a sine."""
 
-STEPS = (sp.floor, sp.ceiling, sp.Mod)
-SIGNS = (sp.Abs, sp.sign, sp.Heaviside)
-EXTREMES = (sp.Max, sp.Min)
 ROUNDING = 4.0
 """So many rounding errors is the argument of a table uncertain."""
 
 STEEP = (sp.tanh, sp.cosh, sp.atan)
 """What rises, or has its least value, around an argument of zero."""
 
-EDGED = (Relational, ModuleCall, *WAVES, *STEPS, *SIGNS, *EXTREMES)
+EDGED = (*BENT, *WAVES, ModuleCall)
 """What gives an edge or a bound where its arguments depend on time."""
-
-CHOOSING = (Relational, sp.sign, sp.Heaviside)
-"""What stays as it is between two edges."""
-
-BENT = (Relational, *STEPS, *SIGNS, *EXTREMES)
-"""What bends or jumps where its arguments are variables."""
 
 
 class Ahead(NamedTuple):
@@ -73,19 +65,62 @@ NOTHING = Ahead(jnp.inf, jnp.inf, jnp.inf)
 
 
 class Line(NamedTuple):
-    """A value until the next edge: ``at_zero + rate * t``. The rate is the float 0.0 where it is constant."""
+    """A value until the next edge: ``at_zero + rate * t``, or, with a wave about it, ``at_zero + size * wave(phase)``.
+
+    The rate is the float 0.0 where it is constant; it is with a wave.
+    """
 
     at_zero: Any
-    rate: Any
+    rate: Any = 0.0
+    wave: Wave | None = None
+
+    @property
+    def level(self) -> bool:
+        """Whether it is constant but for its wave, for any parameters."""
+        return isinstance(self.rate, float) and self.rate == 0.0
 
     @property
     def constant(self) -> bool:
-        """Whether it is so for any parameters."""
-        return isinstance(self.rate, float) and self.rate == 0.0
+        """Whether it is constant, for any parameters."""
+        return self.level and self.wave is None
+
+    def times(self, factor: Any) -> Line:
+        """The line times a constant."""
+        wave = self.wave and self.wave._replace(size=factor * self.wave.size)
+        return Line(factor * self.at_zero, 0.0 if self.level else factor * self.rate, wave)
 
     def at(self, t: ArrayLike) -> Any:
-        """The value at a time."""
-        return self.at_zero if self.constant else self.at_zero + self.rate * t
+        """The value at a time, of a line without a wave."""
+        return self.at_zero if self.level else self.at_zero + self.rate * t
+
+
+class Wave(NamedTuple):
+    """A sine, cosine or tangent of a line, times a constant."""
+
+    kind: Any
+    size: Any
+    phase: Line
+
+
+def merged(lines: Sequence[Line | None], merge: Callable[[Sequence[Any]], Any]) -> Line | None:
+    """The line whose numbers are merged from those of several lines; None if there is none for one of them, or for all.
+
+    Arguments:
+        merge: what chooses, or puts together, one number from those of the lines, in their order.
+    """
+    some = [line for line in lines if line is not None]
+    waves = {line.wave.kind: line.wave for line in some if line.wave is not None}
+    if len(some) < len(lines) or len(waves) > 1 or (waves and not all(line.level for line in some)):
+        return None
+    wave = None
+    for kind in waves:
+        still = Wave(kind, 0.0, Line(0.0))
+        each = [still if line.wave is None else line.wave for line in some]
+        phase = merged([w.phase for w in each], merge)
+        assert phase is not None
+        wave = Wave(kind, merge([w.size for w in each]), phase)
+    rate = 0.0 if all(line.level for line in some) else merge([line.rate for line in some])
+    return Line(merge([line.at_zero for line in some]), rate, wave)
 
 
 def has_edges(node: Any) -> bool:
@@ -101,49 +136,6 @@ def _middles(node: Any) -> list[Any]:
         powers = node.args[0].atoms(sp.Pow)
         return [p.base for p in powers if p.exp.is_even and p.exp.is_positive]
     return []
-
-
-def is_straight(node: Any, timed: set[sp.Symbol]) -> bool:
-    """Whether an expression is a line between any two edges, by what changes with time."""
-    if not node.free_symbols & timed or node in timed:
-        return True
-    if isinstance(node, CHOOSING):
-        return is_foreseen(node, timed)
-    if isinstance(node, sp.Mul) and sum(bool(a.free_symbols & timed) for a in node.args) > 1:
-        return False
-    kinds = (sp.Add, sp.Mul, sp.Piecewise, sp.Tuple, sp.And, sp.Or, sp.Not, *BENT)
-    return isinstance(node, kinds) and all(is_straight(a, timed) for a in node.args)
-
-
-def is_foreseen(node: Any, timed: set[sp.Symbol]) -> bool:
-    """Whether all edges of what bends or jumps are known ahead, by what changes with time."""
-    if isinstance(node, STEPS):
-        return all(is_straight(one, timed) for one in node.args)
-    return all(is_straight(one, timed) or _swings(one, timed) for one in _compared(node))
-
-
-def _swings(node: Any, timed: set[sp.Symbol]) -> bool:
-    """Whether an expression is a wave of a line about a level that does not move."""
-    found = swing(node)
-    if found is None or (found.middle.free_symbols | found.size.free_symbols) & timed:
-        return False
-    return is_straight(found.wave.args[0], timed)
-
-
-def _compared(node: Any) -> list[Any]:
-    """What is zero where an expression bends or jumps."""
-    if isinstance(node, SIGNS):
-        return [node.args[0]]
-    is_relation = isinstance(node, Relational)
-    pairs = product(*map(_ends, node.args)) if is_relation else combinations(_ends(node), 2)
-    return [one - other for one, other in pairs]
-
-
-def _ends(node: Any) -> list[Any]:
-    """What an extreme or a size chooses its value from, of extremes within it too; itself, for anything else."""
-    if isinstance(node, sp.Abs):
-        return [node.args[0], -node.args[0]]
-    return [end for a in node.args for end in _ends(a)] if isinstance(node, EXTREMES) else [node]
 
 
 class Walk:
@@ -206,28 +198,17 @@ class Walk:
         return found
 
     def _zero(self, number: Any) -> Ahead:
-        """Where a number is zero: a line, or a wave of a line about a level that does not move."""
-        if (line := self.line(number)) is not None:
-            return NOTHING if line.constant else self._at(line.at_zero, line.rate)
-        swings = self._swing(number)
-        return NOTHING if swings is None else self._passing(*swings)
+        """Where a number is zero: a line, or a wave about a level."""
+        line = self.line(number)
+        if line is None or line.constant:
+            return NOTHING
+        return self._at(line.at_zero, line.rate) if line.wave is None else self._passing(line)
 
-    def _swing(self, number: Any) -> tuple[Any, Any, Line] | None:
-        """The wave, the level that it has where the number is zero, and its phase; None for any other number."""
-        found = swing(number)
-        if found is None:
-            return None
-        middle, size, phase = map(self.line, (found.middle, found.size, found.wave.args[0]))
-        if middle is None or size is None or phase is None or phase.constant:
-            return None
-        if not (middle.constant and size.constant):
-            return None
-        size = jnp.where(size.at_zero == 0, jnp.nan, size.at_zero)
-        return found.wave, -middle.at_zero / size, phase
-
-    def _passing(self, wave: Any, level: Any, phase: Line) -> Ahead:
-        """Where a wave passes a level."""
-        angles, period = _ANGLES[type(wave)](level)
+    def _passing(self, line: Line) -> Ahead:
+        """Where a wave passes zero."""
+        assert line.wave is not None
+        kind, size, phase = line.wave
+        angles, period = _ANGLES[kind](-line.at_zero / jnp.where(size == 0, jnp.nan, size))
         forward, moves = phase.rate > 0, phase.rate != 0
         rate = jnp.where(moves, phase.rate, 1.0)
         here, turn = phase.at(self.later), jnp.where(forward, period, -period)
@@ -248,7 +229,7 @@ class Walk:
 
     def _choice(self, node: Any) -> Ahead:
         found = NOTHING
-        for number in _compared(node):
+        for number in compared(node):
             found = found.joined(self._zero(number))
         return found if isinstance(node, CHOOSING) else found.bent()
 
@@ -256,7 +237,7 @@ class Walk:
         number = node.args[0]
         if isinstance(node, sp.Mod):
             number = number / node.args[1]
-        line = self.line(number)
+        line = self.straight(number)
         if line is None or line.constant:
             return NOTHING
         below = jnp.floor(self.value(number))
@@ -265,7 +246,7 @@ class Walk:
 
     def _wave(self, node: Any) -> Ahead:
         phase = node.args[0]
-        line = self.line(phase)
+        line = self.straight(phase)
         if line is not None:
             rate: Any = line.rate
         elif self.known(phase):
@@ -311,7 +292,7 @@ class Walk:
         modules = value.module if isinstance(value.module, tuple) else (value.module,)
         if len(arguments) != 1 or not all(hasattr(m, "ahead") for m in modules):
             return None
-        line = self.line(arguments[0])
+        line = self.straight(arguments[0])
         return None if line is None else (_differentiated(value, int(orders[0])), line)
 
     # -- lines ---------------------------------------------------------------------------------------
@@ -326,33 +307,38 @@ class Walk:
         if not self.known(node):
             return None
         if node.is_Number or node.is_NumberSymbol:
-            return Line(float(node), 0.0)
+            return Line(float(node))
         if isinstance(node, sp.Piecewise):
-            return self._line_of_cases(node)
-        if isinstance(node, STEPS[:2]) and self.line(node.args[0]) is not None:
-            return Line(self.value(node), 0.0)
-        if isinstance(node, CHOOSING[1:]) and (
-            self.line(node.args[0]) is not None or self._swing(node.args[0]) is not None
-        ):
-            return Line(self.value(node), 0.0)
+            values = [case.args[0] for case in node.args]
+            return merged(list(map(self.line, values)), self._chosen(node))
+        if isinstance(node, STEPS[:2]) and self.straight(node.args[0]) is not None:
+            return Line(self.value(node))
+        if isinstance(node, CHOOSING[1:]) and self.line(node.args[0]) is not None:
+            return Line(self.value(node))
         if isinstance(node, ModuleCall):
             return self._line_of_table(node)
         lines = [self.line(a) for a in node.args]
         some = [line for line in lines if line is not None]
         if len(some) < len(lines):
             return None
-        if all(line.constant for line in some):
-            return Line(self.value(node), 0.0)
+        moving = [line for line in some if not line.constant]
+        if not moving:
+            return Line(self.value(node))
+        waves = [line.wave for line in moving if line.wave is not None]
+        if waves and len(moving) > 1:
+            return None
         if isinstance(node, sp.Add):
-            return Line(sum(a.at_zero for a in some), sum(a.rate for a in some))
+            rate = 0.0 if waves else sum(line.rate for line in some)
+            return Line(sum(line.at_zero for line in some), rate, *waves)
         if isinstance(node, sp.Mul):
-            moving = [line for line in some if not line.constant]
             if len(moving) > 1:
                 return None
-            factor: Any = 1.0
-            for line in some:
-                factor = factor * line.at_zero if line.constant else factor
-            return Line(moving[0].at_zero * factor, moving[0].rate * factor)
+            factor = reduce(mul, (line.at_zero for line in some if line.constant), 1.0)
+            return moving[0].times(factor)
+        if waves:
+            return None
+        if isinstance(node, WAVES):
+            return Line(0.0, 0.0, Wave(type(node), 1.0, moving[0]))
         if isinstance(node, EXTREMES):
             return self._line_of_extreme(node, some)
         if isinstance(node, sp.Abs):
@@ -363,25 +349,30 @@ class Walk:
             return Line(some[0].at_zero - whole, some[0].rate)
         return None
 
-    def _line_of_cases(self, node: Any) -> Line | None:
-        cases = [(self.line(value), condition) for value, condition in node.args]
-        some = [(line, condition) for line, condition in cases if line is not None]
-        if len(some) < len(cases):
-            return None
-        (at_zero, rate), _ = some[-1]
-        for line, condition in reversed(some[:-1]):
-            holds = evaluate(condition, self.now)
-            at_zero = jnp.where(holds, line.at_zero, at_zero)
-            rate = jnp.where(holds, line.rate, rate)
-        constant = all(line.constant for line, _ in some)
-        return Line(at_zero, 0.0 if constant else rate)
+    def straight(self, node: Any) -> Line | None:
+        """The same for a line without a wave alone."""
+        line = self.line(node)
+        return None if line is None or line.wave is not None else line
 
-    def _line_of_extreme(self, node: Any, lines: list[Line]) -> Line:
-        found = lines[0]
+    def _chosen(self, node: Any) -> Callable[[Sequence[Any]], Any]:
+        """Choose the case that holds just behind the time."""
+        conditions = [evaluate(case.args[1], self.now) for case in node.args[:-1]]
+
+        def choose(values: Sequence[Any]) -> Any:
+            found = values[-1]
+            for value, holds in zip(reversed(values[:-1]), reversed(conditions), strict=True):
+                found = jnp.where(holds, value, found)
+            return found
+
+        return choose
+
+    def _line_of_extreme(self, node: Any, lines: list[Line]) -> Line | None:
+        found: Line | None = lines[0]
         for line in lines[1:]:
+            assert found is not None
             one, other = found.at(self.later), line.at(self.later)
             takes = other > one if isinstance(node, sp.Max) else other < one
-            found = Line(*(jnp.where(takes, b, a) for a, b in zip(found, line, strict=True)))
+            found = merged([found, line], lambda both, takes=takes: jnp.where(takes, *both[::-1]))
         return found
 
     def _line_of_table(self, node: Any) -> Line | None:
@@ -391,7 +382,7 @@ class Walk:
         module, line = called
         modules = module.module if isinstance(module.module, tuple) else (module.module,)
         if line.constant:
-            return Line(self.value(node), 0.0)
+            return Line(self.value(node))
         if not all(m.is_line for m in modules):
             return None
 

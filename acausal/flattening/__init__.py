@@ -15,6 +15,17 @@ from acausal.flattening.equation_group import (
     specialised as specialised,
 )
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
+from acausal.flattening.foreseen import (
+    BENT as BENT,
+    CHOOSING as CHOOSING,
+    EXTREMES as EXTREMES,
+    SIGNS as SIGNS,
+    STEPS as STEPS,
+    WAVES as WAVES,
+    compared as compared,
+    is_foreseen as is_foreseen,
+    is_straight as is_straight,
+)
 from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.leaves_caches import LeavesCaches as LeavesCaches
@@ -26,4 +37,3 @@ from acausal.flattening.reading import (
 from acausal.flattening.sums import Statement as Statement
 from acausal.flattening.template import Integers as Integers, Template as Template
 from acausal.flattening.templates import FEW_VARIANTS as FEW_VARIANTS
-from acausal.flattening.waves import WAVES as WAVES, swing as swing

@@ -13,8 +13,8 @@ from typing import Any
 import sympy as sp
 from sympy.core.relational import Relational
 
+from acausal.flattening.foreseen import is_foreseen
 from acausal.flattening.reading import read_statements
-from acausal.flattening.waves import swing
 from acausal.modeling import (
     Component,
     Discrete,
@@ -193,16 +193,8 @@ def _parameters(relation: Any, component: Component) -> list[Reference]:
 
 
 def _changes(relation: Any) -> bool:
-    """Whether a relation can change in a run, at a time that is not known ahead (see `acausal.codegen.Edges`)."""
-    if any(map(is_unknown, relation.free_symbols)):
-        return True
-    number = literal(relation.lhs - relation.rhs)
-    floors = number.atoms(sp.floor)
-    lines = [number.xreplace({f: sp.Dummy() for f in floors}), *(f.args[0] for f in floors)]
-    if (found := swing(number)) is not None and not floors:
-        moves = time in found.middle.free_symbols | found.size.free_symbols
-        lines = [number] if moves else [found.wave.args[0]]
-    return any(time in line.diff(time).free_symbols for line in lines)
+    """Whether a relation can change in a run, at a time that is not known ahead."""
+    return any(map(is_unknown, relation.free_symbols)) or not is_foreseen(literal(relation), {time})
 
 
 def has_jumps(side: Any) -> bool:

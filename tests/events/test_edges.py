@@ -18,6 +18,11 @@ def edges_of(system):
     return Edges(system.program)
 
 
+def over(s):
+    """The state grows while a signal is above a level."""
+    return [ac.Eq(ac.der(s.x), ac.where(s.u > s.level, 1, 0, events=None))]
+
+
 def driven(source):
     y = source.y[0] if hasattr(source, "nout") else source.y
     made = model(s=source, i=blocks.Integrator())
@@ -183,6 +188,26 @@ def test_formulas(name):
     ts, are_jumps = walked(by_formula(formula, p=2.0))
     np.testing.assert_allclose(ts[are_jumps], jumps, rtol=1e-14)
     np.testing.assert_allclose(ts[~are_jumps], bends, rtol=1e-14)
+
+
+def test_pulses_of_sines_that_come_through_variables_are_seen():
+    high, low = (Equations("x", over, "u", level=v) for v in (0.9999, -2.0004))
+    sine = blocks.Sine(f=1.0, startTime=0.5)
+    cosine = blocks.Cosine(f=0.5, offset=3.0, amplitude=-2.0)
+    parts = {"sine": sine, "cosine": cosine, "gain": blocks.Gain(k=-2.0), "high": high, "low": low}
+    system = ac.compile(model("sine.y - high.u", "cosine.y - gain.u", "gain.y - low.u", **parts))
+
+    def ends(params):
+        sol = ac.simulate(system, SPAN, params=params)
+        return jnp.stack([sol["high.x"][-1], sol["low.x"][-1]])
+
+    # ten peaks of each; the second is -6 + 4 cos(pi t)
+    level, params = 0.9999, {"high.level": 0.9999, "low.level": -2.0004}
+    np.testing.assert_allclose(ends(params), SPAN * np.arccos(level) / PI, rtol=1e-8)
+    slopes = jax.jacobian(ends)(params)
+    slope = -SPAN / PI / np.sqrt(1 - level**2)
+    np.testing.assert_allclose(slopes["high.level"], [slope, 0.0], rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(slopes["low.level"], [0.0, slope / 4], rtol=1e-6, atol=1e-9)
 
 
 @pytest.mark.parametrize("level", [0.9999, 0.3, -0.2])

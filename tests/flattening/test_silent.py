@@ -68,6 +68,7 @@ def test_a_parameter_without_gradient_is_named(case: Case) -> None:
         lambda s: ac.where(s.limit > s.k, 1, 0),
         lambda s: ac.where(ac.time > s.limit, 1, 0),
         lambda s: ac.where(s.k * ac.sin(ac.time) > s.limit, 1, 0),
+        lambda s: ac.where(ac.Abs(ac.sin(ac.time)) > s.limit, 1, 0),
         lambda s: ac.where(ac.where(ac.time < 5, 1, 2) * ac.sin(ac.time) > s.limit, 1, 0),
         lambda s: ac.where(ac.time - ac.floor(ac.time / s.k) * s.k > s.limit, 1, 0),
     ],
