@@ -66,7 +66,7 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
         return params
     if not isinstance(params, Mapping):
         raise DataError(f"params are numbers and networks by name, not {shown(params)}")
-    params = by_element(params, {*layout.names, *layout.module_names}, "params")
+    params = by_element(params, layout.all_names, "params")
     layout.check_names(params)
     if any(name not in params for name in layout.module_names):
         params = {**default_parameters(layout, as_key(0)), **params}

@@ -50,6 +50,11 @@ class ParameterLayout(LeavesCaches):
         return tuple(self.model.layout.module(int(i)) for i in self.own_modules)
 
     @cached_property
+    def all_names(self) -> frozenset[str]:
+        """The names of both."""
+        return frozenset((*self.names, *self.module_names))
+
+    @cached_property
     def own_modules(self) -> list[int]:
         """The modules that are not references to others, and that are parameters."""
         fixed = self.fixed_modules
@@ -67,13 +72,10 @@ class ParameterLayout(LeavesCaches):
         Raises:
             DataError: that names the first.
         """
-        if len(params) == len(self.names) + len(self.module_names) and all(
-            n in params for n in self.names
-        ):
+        if self.all_names.issuperset(params):
             return
-        known = {*self.names, *self.module_names}
         for name in names_in(params, "params"):
-            if name not in known:
+            if name not in self.all_names:
                 reason = self.why_not_free(name)
                 if reason is None:
                     hint = nearest(name, [*self.names, *self.module_names])

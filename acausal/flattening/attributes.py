@@ -69,9 +69,10 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
             if key not in start_of_form:
                 start = getattr(component, d.start) if isinstance(d.start, str) else d.start
                 shape = component._node.shape(d.name, d)
-                if isinstance(d.start, tuple) and shape and len(d.start) > shape[0]:
+                given = np.shape(np.asarray(d.start, dtype=object))
+                if shape and any(n > most for n, most in zip(given, shape, strict=False)):
                     raise DeclarationError(
-                        f"the start of '{d.name}' has {len(d.start)} numbers for {shape[0]} elements"
+                        f"the start of '{d.name}' has the shape {given}, the variable {shape}"
                     )
                 value = element(start, path, d.name)
                 if not is_bound(value):

@@ -261,16 +261,18 @@ class Initializer(LeavesCaches):
             DataError: for what is not a state, or two values of one.
         """
         found: dict[str, Any] = {}
-        given = by_element(given, self.names, "x0")
+        own = frozenset(self.names)
+        given = by_element(given, own, "x0")
         for name in names_in(given, "x0"):
             state, value = name, given[name]
             index = self.reduced.model.layout.find_variable(name)
-            if name not in self.names and index is not None:
+            if name not in own and index is not None:
                 node, sign = self.reduced.resolve(index)
                 places = np.flatnonzero(self.reduced.meant[self.reduced.states] == node).tolist()
                 state = self.names[places[0]] if places else name
                 value = -value if sign < 0 and is_number(value) else value
-            self._known("x0", [state])
+            if state not in own:
+                self._known("x0", [state])
             if state in found:
                 raise DataError(
                     f"x0: '{name}' and the state '{state}' are the same; give one of them"

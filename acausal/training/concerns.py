@@ -18,9 +18,10 @@ from acausal.training.objective.losses import LOSSES, noise_loss, nrmse
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.rejections import SHORTER_STEPS
+from acausal.training.uncertainty.confidence import BAD
 
-UNEXPLAINED, MUCH = 0.05, 1.3
-"""A training without options should leave at most this part of its targets, beside so many times their noise."""
+MUCH = 1.3
+"""Noise is allowed to be so many times as large as it seems."""
 
 EXACT = 1e-100
 """A loss at which a model follows its record to roundoff, so that nothing needs to change."""
@@ -41,9 +42,7 @@ def concerns(
         yield "The trained model diverges over the whole record: its loss is infinite."
     elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained)):
         yield f"Training found nothing better than its start. {sentence}"
-    elif (sentence := _no_better_than_the_mean(problem, trained.simulated)) or (
-        sentence := _unexplained(problem, trained.simulated) if whole else None
-    ):
+    elif sentence := _unexplained(problem, trained.simulated, whole=whole):
         yield sentence
     if not problem.sequences.whole and (remembered := problem.system.remembered):
         yield (
@@ -78,38 +77,31 @@ def _long_steps(problem: Problem, trained: Trained) -> str | None:
     return long_steps(problem.system, values, problem.longest_step)
 
 
-def _no_better_than_the_mean(problem: Problem, simulated: Simulated) -> str | None:
-    """A sentence on a model that follows its records no better than a constant does, or None."""
-    level, error = np.sqrt(len(problem.targets)), _error(problem, simulated)
-    if error < level:
-        return None
-    noise = noise_loss(problem.records)
-    return (
-        f"The trained model is no better than the targets' mean: its error is {error:.3g}, that of the mean "
-        f"{level:.3g}, that of the noise about {noise:.2g} (in standard deviations, added up "
-        "over targets). Do not use it: train longer, by another strategy, or from better parameters (params=...) and "
-        "scales (input_scale=, output_scale=)."
-    )
+def _unexplained(problem: Problem, simulated: Simulated, *, whole: bool) -> str | None:
+    """A sentence on a model that leaves much more of its records than their noise, or None.
 
-
-def _unexplained(problem: Problem, simulated: Simulated) -> str | None:
-    """A sentence on a model that leaves much more of its records than their noise, or None; of the usual loss."""
-    if problem.loss is not LOSSES["nrmse"]:
+    Arguments:
+        whole: whether a model that follows them better than a constant is named, too; by the usual loss alone.
+    """
+    records, level = problem.records, float(np.sqrt(len(problem.targets)))
+    # in standard deviations of the targets, added up over these
+    error = float(compiled(nrmse)(simulated.y, records.y, records.sigma, records.weight))
+    if error < level and not (whole and problem.loss is LOSSES["nrmse"]):
         return None
-    level, error = np.sqrt(len(problem.targets)), _error(problem, simulated)
-    noise = noise_loss(problem.records, simulated.y)
-    if error**2 <= (MUCH * noise) ** 2 + (UNEXPLAINED * level) ** 2:
+    noise = noise_loss(records, simulated.y)
+    if error >= level:
+        return (
+            f"The trained model is no better than the targets' mean: its error is {error:.3g}, that of the mean "
+            f"{level:.3g}, that of the noise about {noise:.2g} (in standard deviations, added up "
+            "over targets). Do not use it: train longer, by another strategy, or from better parameters (params=...) "
+            "and scales (input_scale=, output_scale=)."
+        )
+    if error**2 <= (MUCH * noise) ** 2 + (BAD * level) ** 2:
         return None
     return (
         f"The trained model does not explain the record: it leaves {percent(error / level)} of the targets, the noise "
         f"is {percent(noise / level)}. print(fit) says what is known of the cause."
     )
-
-
-def _error(problem: Problem, simulated: Simulated) -> float:
-    """How far a model is from its records, in standard deviations of the targets, added up over these."""
-    records = problem.records
-    return float(compiled(nrmse)(simulated.y, records.y, records.sigma, records.weight))
 
 
 def _reasons(unmoved: Sequence[str], in_switches: Set[str], has_events: bool) -> Iterator[str]:
