@@ -10,7 +10,7 @@ from networkx.utils import UnionFind
 
 from acausal.drawing.ports import SIGNAL, color_of, port_of_element, ports_of, side_of_gate
 from acausal.drawing.scheme import OPPOSITE, Box, End, Footing, Kind, Net, Port, Scheme
-from acausal.modeling import Component, Connector, Icon, Input, Module, owner_and_name
+from acausal.modeling import Component, Connector, Icon, Input, Module, full_name, owner_and_name
 
 MANY = 8
 """A list with more components than this is drawn as one box."""
@@ -120,7 +120,7 @@ class _Reader:
             inward = OPPOSITE[side_of_gate(kind, usual)]
             self.gates[name] = len(self.boxes)
             self.port_index.append({})
-            path = f"{node.path}.{name}" if node.path else name
+            path = full_name(node.path, name)
             port = Port(name, kind, inward, color)
             self.boxes.append(Box(path, name, "", GATE, (port,), is_port=True))
         return End(self.gates[name], 0)
@@ -145,7 +145,7 @@ class _Reader:
             if len(ends) < 2 or self._within_list(ends) or tuple(sorted(ends)) in seen:
                 continue
             seen.add(tuple(sorted(ends)))
-            names = {f.end: _full_name(given[f]) for f in reversed(fine)}
+            names = {f.end: _name_of_end(given[f]) for f in reversed(fine)}
             kind = _kind_and_color(given[fine[0]])[0]
             colors = [self.boxes[end.box].ports[end.port].color for end in ends]
             color = next((color for color in colors if color != SIGNAL), SIGNAL)
@@ -232,10 +232,9 @@ def _kind_and_color(end: Any) -> tuple[Kind, str]:
     return ("input" if isinstance(end.declaration, Input) else "output"), color_of(end.declaration)
 
 
-def _full_name(end: Any) -> str:
+def _name_of_end(end: Any) -> str:
     owner, name = owner_and_name(end)
-    path = "" if owner is None else owner.path
-    return f"{path}.{name}" if path else name
+    return full_name("" if owner is None else owner.path, name)
 
 
 def with_local_references(scheme: Scheme) -> Scheme:

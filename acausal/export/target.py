@@ -17,7 +17,7 @@ from acausal._jax import need_known
 from acausal.analysis import Observer, ObserverMemory
 from acausal.errors import DataError, known_name, need_compiled, shown
 from acausal.export.needs import all_parameters, need_exportable
-from acausal.modeling import Component, ModuleCall, Reference, names_in
+from acausal.modeling import Component, ModuleCall, Reference, full_name, names_in
 from acausal.networks import EnergyLaw, law_of
 from acausal.system import System
 
@@ -355,8 +355,7 @@ def _called_with(
     def named(expression: Any, otherwise: str) -> str:
         if not isinstance(expression, Reference):
             return otherwise
-        prefix = expression.owner.path
-        full = f"{prefix}.{expression.path}" if prefix else expression.path
+        full = full_name(expression.owner.path, expression.path)
         units[full] = expression.declaration.unit
         return full
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 import numpy as np
@@ -98,20 +100,13 @@ def binding_levels(
     needs = [
         {number[a] for a in aliases[list(b.arguments)].tolist() if a in number} for b in bindings
     ]
-    needed_by: list[list[int]] = [[] for _ in bindings]
-    for i, needed in enumerate(needs):
-        for j in sorted(needed):
-            needed_by[j].append(i)
-    left = [len(needed) for needed in needs]
+    order = TopologicalSorter(dict(enumerate(needs)))
     levels: list[list[Binding]] = []
-    ready = [i for i, n in enumerate(left) if n == 0]
-    while ready:
+    done = set[int]()
+    with suppress(CycleError):
+        order.prepare()
+    while ready := sorted(order.get_ready()):
         levels.append([bindings[i] for i in ready])
-        after: list[int] = []
-        for i in ready:
-            for j in needed_by[i]:
-                left[j] -= 1
-                if left[j] == 0:
-                    after.append(j)
-        ready = sorted(after)
-    return levels, [b for b, n in zip(bindings, left, strict=True) if n > 0]
+        done.update(ready)
+        order.done(*ready)
+    return levels, [b for i, b in enumerate(bindings) if i not in done]

@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import connected_components
 
 from acausal.errors import ConnectionError
 from acausal.flattening.equation_group import EquationGroup
-from acausal.flattening.layout import Layout
+from acausal.flattening.layout import Layout, declared
 from acausal.flattening.origin import Origin
 from acausal.flattening.sums import Statement, balance
 from acausal.flattening.template import Integers, Template, interned, slot
@@ -140,7 +140,7 @@ def zeros(variables: Integers, text: str) -> tuple[EquationGroup, ...]:
 
 def model_inputs(layout: Layout, connected: ConnectionSets) -> Integers:
     """Input signals that no connection feeds: the inputs of the model, in order of declaration."""
-    inputs = _declared(layout, Input)
+    inputs = declared(layout, Input)
     fed = {v for signals in connected.sets if signals.kind is None for v in _fed(layout, signals)}
     return np.asarray([v for v in inputs if v not in fed], dtype=np.int64)
 
@@ -154,7 +154,7 @@ def model_outputs(layout: Layout, connected: ConnectionSets) -> Integers:
         for v, inner in zip(signals.variables, signals.inner, strict=True)
         if not inner and v >= layout.variable_base[1]
     }
-    outputs = [v for v in _declared(layout, Output) if v not in taken]
+    outputs = [v for v in declared(layout, Output) if v not in taken]
     return np.asarray(outputs, dtype=np.int64)
 
 
@@ -214,17 +214,6 @@ def _locate(
         kind, first = form.connectors[name]
         return is_own, base + first, kind
     return is_own, base + form.variable_index[name], None
-
-
-def _declared(layout: Layout, role: type) -> list[int]:
-    """Indices of all variables declared as `role`, in order."""
-    found: list[Integers] = []
-    for number, form in enumerate(layout.forms):
-        local = [i for i, (_, d) in enumerate(form.variables) if isinstance(d, role)]
-        if local:
-            members = np.flatnonzero(layout.form_of == number)
-            found.append((layout.variable_base[members][:, None] + np.asarray(local)).ravel())
-    return np.sort(np.concatenate(found)).tolist() if found else []
 
 
 def unconnected(layout: Layout) -> tuple[str, ...]:

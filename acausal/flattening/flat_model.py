@@ -19,7 +19,7 @@ from acausal.flattening.connections import (
 )
 from acausal.flattening.equation_group import EquationGroup, EventEquations
 from acausal.flattening.instances import instantiate
-from acausal.flattening.layout import Layout, lay_out, tiled
+from acausal.flattening.layout import Layout, declared, lay_out
 from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.silent import Silent
 from acausal.flattening.stated import Stated
@@ -77,11 +77,11 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
     @cached_property
     def discrete(self) -> Integers:
         """The variables that change at events only: first those of watched conditions, in order of the guards."""
-        local = [[isinstance(v, Discrete) for _, v in f.variables] for f in self.layout.forms]
-        declared = np.flatnonzero(tiled(self.layout, self.layout.variable_base, local, np.bool_))
         guards = [g.targets for g in self.events.guards]
         watched = np.concatenate([np.zeros(0, np.int64), *guards])
-        return np.concatenate([watched, np.setdiff1d(declared, [*watched, *self.given])])
+        return np.concatenate(
+            [watched, np.setdiff1d(declared(self.layout, Discrete), [*watched, *self.given])]
+        )
 
     def equations(
         self, *, initial: bool = False, at_events: bool = True

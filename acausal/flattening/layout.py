@@ -27,6 +27,7 @@ from acausal.modeling import (
     Variable,
     charge,
     element_names,
+    full_name,
     owner_and_name,
 )
 
@@ -151,8 +152,7 @@ class Layout(LeavesCaches):
         return component, self.form(component).parameters[local]
 
     def _name(self, component: int, declared: tuple[str, Declaration]) -> str:
-        path, local = self.paths[component], declared[0]
-        return f"{path}.{local}" if path else local
+        return full_name(self.paths[component], declared[0])
 
 
 def lay_out(model: Component, *, watch: bool = False) -> tuple[Layout, tuple[Stated, ...]]:
@@ -369,3 +369,9 @@ def _form(component: Component) -> Form:
 def element_paths(component: Component, name: str, declaration: Declaration) -> list[str]:
     """Local paths of a declaration: one, or one for every element of a vector or matrix."""
     return element_names(name, component._node.shape(name, declaration))
+
+
+def declared(layout: Layout, role: type) -> list[int]:
+    """Indices of all variables declared as ``role``, in order."""
+    local = [[isinstance(v, role) for _, v in form.variables] for form in layout.forms]
+    return np.flatnonzero(tiled(layout, layout.variable_base, local, np.bool_)).tolist()

@@ -11,7 +11,7 @@ import sympy as sp
 from acausal.codegen import Packed, ParameterLayout, pack
 from acausal.flattening import Binding, FlatModel, is_hidden
 from acausal.initialization.initialize import Initializer
-from acausal.modeling import Declaration
+from acausal.modeling import Declaration, full_name
 
 Row = dict[str, Any]
 
@@ -58,7 +58,7 @@ def _parameters(
                 origin = f"= {_expression(model, bound[index])}"
             elif model.folded[index]:
                 origin = "default, folded"
-            yield _dotted(path, local), _row("parameter", declared, value=value, origin=origin)
+            yield full_name(path, local), _row("parameter", declared, value=value, origin=origin)
 
 
 def _expression(model: FlatModel, binding: Binding) -> str:
@@ -79,7 +79,7 @@ def _modules(
             if target != index:
                 origin = f"= {model.layout.module(target)}"
             value = type(packed.modules[target]).__name__
-            yield _dotted(path, local), _row("network", declared, value=value, origin=origin)
+            yield full_name(path, local), _row("network", declared, value=value, origin=origin)
 
 
 def _states(initial: Initializer, packed: Packed) -> Iterator[tuple[str, Row]]:
@@ -112,7 +112,3 @@ def _variable(model: FlatModel, kind: str, name: str, index: int | None) -> Row:
     if index is None or index >= model.n_variables:  # a derivative
         return _row(kind, Declaration(doc=f"derivative of {name.removeprefix('der(')[:-1]}"))
     return _row(kind, model.layout.variable_declaration(index))
-
-
-def _dotted(path: str, local: str) -> str:
-    return f"{path}.{local}" if path else local

@@ -17,6 +17,7 @@ from acausal.modeling.declarations import (
     element_names,
 )
 from acausal.modeling.documentation import DocumentationOf
+from acausal.modeling.names import full_name
 from acausal.modeling.symbols import Eq, Owner, elements
 
 
@@ -126,8 +127,7 @@ class Connector:
 
     def __repr__(self) -> str:
         path = "" if self._owner is None else self._owner.path
-        name = f"{path}.{self._name}" if path else self._name
-        return f"{name} ({type(self).__name__})"
+        return f"{full_name(path, self._name)} ({type(self).__name__})"
 
 
 def _role(declaration: Variable) -> type:

@@ -8,6 +8,7 @@ from typing import Any
 from acausal.errors import ConnectionError
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import Input, Output
+from acausal.modeling.names import full_name
 from acausal.modeling.node import Endpoint
 from acausal.modeling.symbols import Owner, Reference
 
@@ -20,8 +21,7 @@ def owner_and_name(end: Endpoint) -> tuple[Owner | None, str]:
 def endpoint_label(end: Any) -> str:
     """The name of an end of a connection in messages."""
     if isinstance(end, Reference):
-        path = end.owner.path
-        return f"{path}.{end.path}" if path else end.path
+        return full_name(end.owner.path, end.path)
     return repr(end).partition("\n")[0]
 
 

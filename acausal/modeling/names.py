@@ -115,6 +115,11 @@ class Name(str):
     _ipython_key_completions_ = __dir__
 
 
+def full_name(path: str, name: str) -> str:
+    """The full name of what a component calls so; the path of the model itself is empty."""
+    return f"{path}.{name}" if path else name
+
+
 def names_matching(given: Any, known: Sequence[str]) -> tuple[str, ...]:
     """Names, and those that patterns stand for: ``"c.*"`` the names directly below ``c``, ``"c.**"`` all below.
 

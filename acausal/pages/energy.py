@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from acausal.modeling import Component, Connector, der
+from acausal.modeling import Component, Connector, der, full_name
 from acausal.pages.own_law import formulas, own_law
 from acausal.pages.trajectories import labelled
 from acausal.reporting import Block, Curve, Plot, Text, table, thinned
@@ -51,7 +51,7 @@ def powers(path: str, connectors: Mapping[str, type[Connector]]) -> tuple[Power,
     found: list[Power] = []
     for name, kind in connectors.items():
         watts = [n for n, d in kind.declarations.items() if d.unit == "W"]
-        prefix = f"{path}.{name}" if path else name
+        prefix = full_name(path, name)
         if watts:
             found.append(Power(f"{prefix}.{watts[0]}", ""))
         elif kind.power and kind.across != Connector.across:

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.codegen import Packed, evaluate, read_parameters
-from acausal.modeling import Component, Connector, ModuleCall, Parameter, references
+from acausal.modeling import Component, Connector, ModuleCall, Parameter, full_name, references
 from acausal.pages.own_law import OwnLaw, own_law, two_port_kind
 from acausal.system import System
 
@@ -120,4 +120,4 @@ def _parameter(system: System, path: str, reference: Any) -> int | None:
     """Number of a parameter of a component or of one around it."""
     owner: Component = system.flat.layout.components[system.flat.layout.number[path]]
     own = path if reference.owner is owner._node else reference.owner.path
-    return system.flat.layout.find_parameter(f"{own}.{reference.path}" if own else reference.path)
+    return system.flat.layout.find_parameter(full_name(own, reference.path))

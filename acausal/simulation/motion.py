@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from acausal.codegen import Packed, evaluate, read_parameters
 from acausal.errors import DataError, known_name
-from acausal.modeling import Parameter, Reference, Shape
+from acausal.modeling import Parameter, Reference, Shape, full_name
 
 if TYPE_CHECKING:
     from acausal.reporting import Animation, Moving
@@ -112,6 +112,5 @@ def _read_by(
                 if isinstance(symbol.declaration, Parameter):
                     parameters[symbol] = int(layout.parameter_base[i]) + local[symbol.path]
                 else:
-                    path = layout.paths[i]
-                    variables[symbol] = f"{path}.{symbol.path}" if path else symbol.path
+                    variables[symbol] = full_name(layout.paths[i], symbol.path)
     return variables, parameters

@@ -46,6 +46,7 @@ from acausal.modeling import (
     Tick,
     Variable,
     When,
+    full_name,
     owner_and_name,
     references,
 )
@@ -271,8 +272,7 @@ class ClassWriter:
     def _call(self, call: Any, written: Callable[[Any], str]) -> str:
         """A network that is applied: an instance of its block, with equations for its inputs."""
         module, orders, *arguments = call.args
-        prefix = module.owner.path
-        full = f"{prefix}.{module.path}" if prefix else module.path
+        full = full_name(module.owner.path, module.path)
         kind = self.package.network(full, tuple(map(int, orders)))
         texts = list(map(written, arguments))
         key = (kind, "; ".join(texts))
