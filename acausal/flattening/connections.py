@@ -140,7 +140,7 @@ def zeros(variables: Integers, text: str) -> tuple[EquationGroup, ...]:
 
 def model_inputs(layout: Layout, connected: ConnectionSets) -> Integers:
     """Input signals that no connection feeds: the inputs of the model, in order of declaration."""
-    inputs = declared(layout, Input)
+    inputs = declared(layout, Input).tolist()
     fed = {v for signals in connected.sets if signals.kind is None for v in _fed(layout, signals)}
     return np.asarray([v for v in inputs if v not in fed], dtype=np.int64)
 
@@ -154,7 +154,7 @@ def model_outputs(layout: Layout, connected: ConnectionSets) -> Integers:
         for v, inner in zip(signals.variables, signals.inner, strict=True)
         if not inner and v >= layout.variable_base[1]
     }
-    outputs = [v for v in declared(layout, Output) if v not in taken]
+    outputs = [v for v in declared(layout, Output).tolist() if v not in taken]
     return np.asarray(outputs, dtype=np.int64)
 
 

@@ -371,7 +371,7 @@ def element_paths(component: Component, name: str, declaration: Declaration) -> 
     return element_names(name, component._node.shape(name, declaration))
 
 
-def declared(layout: Layout, role: type) -> list[int]:
+def declared(layout: Layout, role: type) -> Integers:
     """Indices of all variables declared as ``role``, in order."""
     local = [[isinstance(v, role) for _, v in form.variables] for form in layout.forms]
-    return np.flatnonzero(tiled(layout, layout.variable_base, local, np.bool_)).tolist()
+    return np.flatnonzero(tiled(layout, layout.variable_base, local, np.bool_))
