@@ -373,12 +373,26 @@ def test_a_fit_names_the_parameter_that_what_is_left_looks_like() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    ("gain", "what", "check"),
+    [(-1.0, "had the opposite sign", "which way"), (1e3, "were 0.001 times as large", "its unit")],
+)
+@pytest.mark.filterwarnings("ignore:The trained model", "ignore:Training found nothing better")
+def test_a_fit_names_an_input_of_wrong_sign_or_unit(gain: float, what: str, check: str) -> None:
+    right = data()
+    wrong = ac.Data(right.time, {"push.f": gain * right["push.f"], "mass.v": right["mass.v"]})
+    expected = f"If push.f {what}, linear laws alone would leave .*: check {check}"
+    with pytest.warns(UserWarning, match=expected):
+        ac.fit(trained().system, wrong, "mass.v", progress=False)
+
+
+@pytest.mark.slow
 def test_a_fit_names_a_target_that_comes_late_though_the_law_takes_a_part() -> None:
     record, late = data(), 0.04
     delayed = {"mass.v": np.interp(record.time - late, record.time, record["mass.v"])}
     late_data = ac.Data(record.time, {"push.f": record["push.f"], **delayed})
     fit = ac.fit(trained().system, late_data, "mass.v", epochs=60, progress=False)
-    found = re.search(r"'mass\.v' came (\S+) s late: train it \(delays=", str(fit.verdict))
+    found = re.search(r"'mass\.v' came (\S+) s late \(train it: delays=", str(fit.verdict))
     assert found is not None
     assert 0.6 * late < float(found[1]) < 1.4 * late
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal.data import Data
+from acausal.errors import percent
 from acausal.networks import Affine, LawShape, Scales, lacks_scales, linear_shape, with_scales
 from acausal.training.auto.linear_start import (
     LinearStart,
@@ -21,6 +22,7 @@ from acausal.training.auto.linear_start import (
 )
 from acausal.training.auto.step_choice import StepChoice, chosen_steps, tried_steps
 from acausal.training.build_problem import build_problem, trained_networks
+from acausal.training.objective.input_gains import gains, in_words, to_check, with_gain
 from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
@@ -65,6 +67,26 @@ GAIN, NATS = 2e-3, 0.5
 so small a part raises the logarithm of the likelihood of all samples by more than this."""
 
 
+GAINS, LOOKED_AT = (-1.0, 1e3, 1e-3), 3
+"""By what inputs are multiplied to see whether they were misread; and how many inputs."""
+
+
+class Misread(NamedTuple):
+    """An input with which linear laws explain records if it is multiplied by a number: what they leave, and of what."""
+
+    name: str
+    gain: float
+    loss: float
+    level: float
+
+    def __str__(self) -> str:
+        """What to check."""
+        return (
+            f"If {in_words(self.name, self.gain)}, linear laws alone would leave {percent(self.loss / self.level)} of "
+            f"the targets, less than what was trained: {to_check(self.gain)}."
+        )
+
+
 @dataclass(frozen=True, eq=False)
 class Automatic:
     """What was chosen.
@@ -76,6 +98,7 @@ class Automatic:
         step: of the integration; ``None`` where the user has said anything of it.
         linear: the linear start; ``None`` where no network lacks scales.
         not_laws: networks that are no laws of the library, which are trained from where they are.
+        misread: inputs that would explain the records with another sign or unit.
         pieces: how many pieces the records were cut into, as the model is sensitive; 0 where they are whole.
     """
 
@@ -85,7 +108,12 @@ class Automatic:
     step: StepChoice | None
     linear: LinearStart | None
     not_laws: tuple[str, ...]
+    misread: tuple[Misread, ...] = ()
     pieces: int = 0
+
+    def misread_beside(self, loss: float) -> list[str]:
+        """A sentence on each input that may have been misread, as a training ended with more loss."""
+        return [str(one) for one in self.misread if one.loss < loss]
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
         """The start of a training, with parameters and first states where the linear start found them."""
@@ -144,7 +172,10 @@ def automatic(
     )
     free = None if step.solver is None or options.dt is not None else step
     linear_start = start if shapes else None
-    return Automatic(step.of(options, records), scaled, stages, free, linear_start, fixed)
+    misread: tuple[Misread, ...] = ()
+    if shapes and not begun.explains:
+        misread = tuple(_misread(problem_of(part, begun.step), shapes))
+    return Automatic(step.of(options, records), scaled, stages, free, linear_start, fixed, misread)
 
 
 class _Begin(NamedTuple):
@@ -199,6 +230,16 @@ def _begin(
         if short.loss < ALMOST * np.sqrt(len(short.problem.targets)):
             break
     return begun
+
+
+def _misread(problem: Problem, shapes: dict[str, LawShape]) -> Iterator[Misread]:
+    """Inputs that may have been misread, where linear laws explain nothing."""
+    level = float(np.sqrt(len(problem.targets)))
+    for name, own in [*gains(problem).items()][:LOOKED_AT]:
+        for gain in GAINS:
+            turned = linear_start(with_gain(problem, jnp.asarray(1 + (gain - 1) * own)), shapes)
+            if turned.loss < EXPLAINS * level:
+                yield Misread(name, gain, turned.loss, level)
 
 
 def _start(problem: Problem, shapes: dict[str, LawShape]) -> LinearStart:

@@ -1,4 +1,4 @@
-"""What residuals look like: a parameter that is taken as known and is not, or targets that come late.
+"""What residuals look like: a parameter that is not what it is taken for, a wrong sign or unit, targets that come late.
 
 Each such cause moves the predictions in a direction. What was trained has taken a part of that already, as far as it
 can: laws, parameters and starts. So the residuals are compared with the rest of the direction, which is what the cause
@@ -8,7 +8,7 @@ Individual Trends, Econometrica 1 (1933), 387-401).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import jax
@@ -17,6 +17,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.errors import listing, percent
+from acausal.training.objective.input_gains import gains, in_words, to_check, with_gain
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.changes import changes
 from acausal.training.uncertainty.laplace import by_record, residuals_and_jacobian
@@ -24,9 +25,6 @@ from acausal.training.uncertainty.record_elimination import untaken
 
 LIKELY = 0.75
 """The residuals look like a cause if they follow it to this part."""
-
-FAR = np.log(5)
-"""A parameter that is off by a larger factor does not show by small changes."""
 
 MOST = 3
 """So many causes are named."""
@@ -37,34 +35,52 @@ AT_ONCE = 16
 
 @dataclass(frozen=True, eq=False)
 class Cause:
-    """What residuals may come from.
+    """What residuals may come from: a parameter that is off by a factor.
 
     Attributes:
-        names: of a parameter, or of targets that come late.
-        effect: how the predictions move by it: by a factor of e of a parameter, by a second of a delay.
+        names: of a parameter, an input, or targets.
+        effect: how the predictions move by it: by a factor of e of a parameter, by once as much of an input, by a
+            second of a delay.
         far: the largest size that shows by small changes.
-        is_delay: whether it is one.
     """
 
     names: tuple[str, ...]
     effect: Float[np.ndarray, "N n_targets"]
-    far: float
-    is_delay: bool = False
+    far: float = float(np.log(5))
 
     def sentence(self, size: float) -> str:
         """What it is, by its size."""
-        if self.is_delay:
-            return f"{listing(self.names)} came {abs(size):.2g} s {'early' if size < 0 else 'late'}"
-        return (
-            f"{self.names[0]} changed by {'-' if size < 0 else '+'}{percent(abs(np.expm1(size)))}"
-        )
+        sign = "-" if size < 0 else "+"
+        return f"{self.names[0]} changed by {sign}{percent(abs(np.expm1(size)))}"
 
     def remedy(self, size: float) -> str:
         """What to do about it."""
-        if self.is_delay:
-            kind = f"ac.Delay({'min' if size < 0 else 'max'}={3 * size:.1g})"
-            return f"train it (delays={{{', '.join(f'{name!r}: {kind}' for name in self.names)}}})."
-        return f"if you do not know it so well, train it, too (modifiers=['{self.names[0]}'])."
+        return f"if you do not know it so well, train it, too: modifiers=['{self.names[0]}']"
+
+
+class Late(Cause):
+    """Targets that come late."""
+
+    def sentence(self, size: float) -> str:
+        """By how much."""
+        return f"{listing(self.names)} came {abs(size):.2g} s {'early' if size < 0 else 'late'}"
+
+    def remedy(self, size: float) -> str:
+        """A delay that is trained."""
+        kind = f"ac.Delay({'min' if size < 0 else 'max'}={3 * size:.1g})"
+        return f"train it: delays={{{', '.join(f'{name!r}: {kind}' for name in self.names)}}}"
+
+
+class Gain(Cause):
+    """An input that has another sign, unit or size than its record says."""
+
+    def sentence(self, size: float) -> str:
+        """Which of them."""
+        return in_words(self.names[0], 1 + size)
+
+    def remedy(self, size: float) -> str:
+        """What to look at."""
+        return to_check(1 + size)
 
 
 def likely_causes(fit: TrainedModel) -> str | None:
@@ -74,7 +90,7 @@ def likely_causes(fit: TrainedModel) -> str | None:
         return None  # a network that is never called takes nothing, and has no place to bump
     change = changes(problem, fit.trained, fit.arguments)
     left, jacobian = residuals_and_jacobian(problem, change)
-    causes = [*_parameters(fit), *_delays(fit)]
+    causes = [*_parameters(fit), *_inputs(fit), *_delays(fit)]
     effects = np.stack([left, *(cause.effect for cause in causes)], axis=-1)
     counts = np.asarray(problem.records.weight) > 0
     size = np.sqrt(np.sum(left**2, axis=0) / np.maximum(np.sum(counts, axis=0), 1))
@@ -96,9 +112,8 @@ def likely_causes(fit: TrainedModel) -> str | None:
     named = list(likely.items())[:MOST]
     if not named:
         return None
-    looks = " or ".join(cause.sentence(size) for cause, size in named)
-    first, size = named[0]
-    return f"What is left looks as if {looks}: {first.remedy(size)}"
+    looks = " or ".join(f"{cause.sentence(size)} ({cause.remedy(size)})" for cause, size in named)
+    return f"What is left looks as if {looks}."
 
 
 def _parameters(fit: TrainedModel) -> Iterator[Cause]:
@@ -115,19 +130,34 @@ def _parameters(fit: TrainedModel) -> Iterator[Cause]:
         and layout.why_not_free(n) is None
     ]
 
-    def effect(direction: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
-        def after(step: Float[Array, ""]) -> Float[Array, "N n_targets"]:
-            moves = {
-                n: params[n] * jnp.exp(step * d) for n, d in zip(names, direction, strict=True)
-            }
-            return problem.predict(trainable, {**params, **moves})
+    def predicted(step: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+        moves = {n: params[n] * jnp.exp(s) for n, s in zip(names, step, strict=True)}
+        return problem.predict(trainable, {**params, **moves})
 
-        return jax.jvp(after, (jnp.zeros(()),), (jnp.ones(()),))[1]
+    yield from (Cause((n,), e) for n, e in zip(names, _effects(predicted, len(names)), strict=True))
 
-    if names:
-        run = jax.jit(lambda rows: jax.lax.map(effect, rows, batch_size=AT_ONCE))
-        effects = np.asarray(run(jnp.eye(len(names))))
-        yield from (Cause((n,), e, FAR) for n, e in zip(names, effects, strict=True))
+
+def _inputs(fit: TrainedModel) -> Iterator[Cause]:
+    """The inputs that are samples."""
+    problem, trainable = fit.problem, fit.trained
+    params, columns = problem.assemble(trainable), gains(problem)
+    each = jnp.asarray(list(columns.values())).reshape(len(columns), len(problem.system.inputs))
+
+    def predicted(step: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+        return with_gain(problem, 1 + step @ each).predict(trainable, params)
+
+    effects = _effects(predicted, len(columns))
+    yield from (Gain((n,), e, np.inf) for n, e in zip(columns, effects, strict=True))
+
+
+def _effects(predicted: Callable[[Array], Array], n: int) -> Float[np.ndarray, "n N n_targets"]:
+    """How predictions move along each of n numbers, from zero."""
+
+    def along(direction: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+        return jax.jvp(predicted, (jnp.zeros(n),), (direction,))[1]
+
+    run = jax.jit(lambda rows: jax.lax.map(along, rows, batch_size=AT_ONCE))
+    return np.asarray(run(jnp.eye(n)) if n else [])
 
 
 def _delays(fit: TrainedModel) -> Iterator[Cause]:
@@ -151,4 +181,4 @@ def _delays(fit: TrainedModel) -> Iterator[Cause]:
         fastest = np.max(np.std(rate[:, some], axis=0) / np.asarray(records.sigma)[some])
         if fastest > 0:
             names = tuple(problem.targets[i] for i in some)
-            yield Cause(names, effect, float(1 / fastest), is_delay=True)
+            yield Late(names, effect, float(1 / fastest))

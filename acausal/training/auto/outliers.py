@@ -1,0 +1,100 @@
+"""Samples that no model should follow: outliers, and times at which a sensor gave something else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from acausal.errors import percent
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Simulated
+
+FAR = 6.0
+"""A sample is far off by so many usual deviations."""
+
+USUAL = 1.4826
+"""The standard deviation of normal numbers, in medians of their sizes."""
+
+FEW, MOST = 0.1, 0.5
+"""Wild samples are less than this part of all, and make more than this part of what is left."""
+
+JUMP, SMOOTH, NEAR = 0.5, 0.3, 3
+"""A record jumps to outliers, or back, by this part of what they are off. Predictions jump by less than the second
+part, up to so many samples from there: where they do, an event came early or late."""
+
+STUCK, OVER = 0.01, 0.02
+"""A sensor is at its limit if more than this part of the samples are, and predictions go beyond by the second part of
+the target's deviation."""
+
+LEAVE = "leave them out, as nan,"
+"""What to do about wrong samples."""
+
+
+class _Series(NamedTuple):
+    """The samples of a target in a record."""
+
+    t: Float[np.ndarray, " n"]
+    measured: Float[np.ndarray, " n"]
+    predicted: Float[np.ndarray, " n"]
+
+    def outliers(self, far: float) -> Bool[np.ndarray, " n"]:
+        """Which samples are farther off than that, and are no events at other times."""
+        left = np.abs(self.measured - self.predicted)
+        found = left > far
+        jumps = np.abs(np.diff(self.measured, prepend=np.nan, append=np.nan))
+        slopes = np.abs(np.diff(self.predicted, prepend=np.nan, append=np.nan))
+        edges = np.flatnonzero(np.diff(found, prepend=False, append=False))
+        for begin, end in edges.reshape(-1, 2):
+            off = left[begin:end].max()
+            near = [slopes[max(e - NEAR, 0) : e + NEAR + 1] for e in (begin, end)]
+            smooth = np.nanmax(np.append(np.concatenate(near), 0.0)) < SMOOTH * off
+            jump = np.nanmax(np.append(jumps[[begin, end]], 0.0))
+            found[begin:end] = smooth and jump > JUMP * off
+        return found
+
+
+def outliers(problem: Problem, simulated: Simulated) -> Iterator[str]:
+    """A sentence on each target of which a few samples make most of what is left, or that stays at a limit."""
+    records = problem.records
+    rows = [records.rows_of(i) for i in range(records.count)]
+    counts = np.asarray(records.weight) > 0
+    t, measured, predicted = map(np.asarray, (records.steps.t, records.y, simulated.y))
+    for k, name in enumerate(problem.targets):
+        kept = [own[counts[own, k]] for own in rows]
+        series = [_Series(t[own], measured[own, k], predicted[own, k]) for own in kept]
+        left = np.concatenate([one.measured - one.predicted for one in series])
+        if not len(left) or not np.isfinite(left).all():
+            continue
+        far = FAR * USUAL * float(np.median(np.abs(left)))
+        outlying = np.concatenate([one.outliers(far) for one in series])
+        share = np.sum(left[outlying] ** 2) / np.sum(left**2) if outlying.any() else 0.0
+        if np.mean(outlying) < FEW and share > MOST:
+            at = np.concatenate([one.t for one in series])[outlying]
+            when = ", ".join(f"{one:.4g}" for one in at[:NEAR])
+            yield (
+                f"{np.sum(outlying)} of {len(outlying)} samples of {name} lie far from the others (at {when}"
+                f"{', ...' * (len(at) > NEAR)} s) and make {percent(share)} of what is left: {LEAVE} if "
+                "they are wrong, or let them count less (loss='huber')."
+            )
+        yield from _at_limits(name, *map(np.concatenate, zip(*series, strict=True)))
+
+
+def _at_limits(
+    name: str,
+    t: Float[np.ndarray, " N"],
+    measured: Float[np.ndarray, " N"],
+    predicted: Float[np.ndarray, " N"],
+) -> Iterator[str]:
+    """Where a target stays at its least or largest value, and predictions go beyond."""
+    for which, sign in (("largest", 1), ("least", -1)):
+        limit = sign * (sign * measured).max()
+        there = measured == limit
+        beyond = float(np.mean(sign * (predicted[there] - limit)))
+        if there.sum() > len(t) * STUCK and beyond > OVER * float(np.std(measured)):
+            yield (
+                f"{np.sum(there)} of {len(t)} samples of {name} have its {which} value, {limit:.4g}, where "
+                f"predictions go beyond: {LEAVE} if a sensor is at its limit there."
+            )

@@ -1,0 +1,49 @@
+"""Records whose inputs are larger, smaller or of the other sign than they say."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TypeVar
+
+import equinox as eqx
+import jax
+import numpy as np
+from jaxtyping import Array, Float
+
+from acausal.modeling import antiderivatives
+from acausal.training.objective.simulator import Simulator
+
+UNIT = 5.0
+"""An input that is off by a larger factor has another unit, rather than a sensor that is out of tune."""
+
+S = TypeVar("S", bound=Simulator)
+
+
+def gains(simulator: Simulator) -> dict[str, Float[np.ndarray, " n_inputs"]]:
+    """By input that is given by samples, which of the model's inputs change with it: itself, and its derivatives."""
+    of = [antiderivatives(name)[-1] for name in simulator.system.inputs]
+    functions = simulator.records.steps.inputs.functions or (None,) * len(of)
+    sampled = [name for name, function in zip(of, functions, strict=True) if function is None]
+    return {n: np.asarray([n == other for other in of], float) for n in dict.fromkeys(sampled)}
+
+
+def with_gain(simulator: S, gain: Float[Array, " n_inputs"]) -> S:
+    """The same, with the samples of inputs times these numbers."""
+    samples = simulator.records.steps.inputs
+    scaled = jax.tree.map(lambda a: a * gain, replace(samples, functions=()))
+    scaled = replace(scaled, functions=samples.functions)
+    return eqx.tree_at(lambda s: s.records.steps.inputs, simulator, scaled)
+
+
+def in_words(name: str, gain: float) -> str:
+    """What an input would be that is so many times what its record says."""
+    if gain < 0:
+        return f"{name} had the opposite sign"
+    return f"{name} were {float(f'{gain:.2g}'):g} times as large"
+
+
+def to_check(gain: float) -> str:
+    """What to look at if an input is so many times what its record says."""
+    if gain < 0:
+        return "check which way it counts"
+    return f"check its {'calibration' if 1 / UNIT < gain < UNIT else 'unit'}"

@@ -1,0 +1,67 @@
+"""Samples that no model should follow are named, and events that come at other times are not taken for such."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from acausal.training.auto.outliers import outliers
+
+N = 400
+T = np.linspace(0.0, 10.0, N)
+FIRST = 150
+
+
+def sentences(measured: np.ndarray, predicted: np.ndarray, weight: Any = 1.0) -> list[str]:
+    """About two records of one target."""
+    measured = measured + 0.01 * np.random.default_rng(0).normal(size=N)
+    rows = [np.arange(FIRST), np.arange(FIRST, N)]
+    records: Any = SimpleNamespace(
+        count=2,
+        rows_of=lambda i: rows[i],
+        weight=np.broadcast_to(weight, N)[:, None],
+        steps=SimpleNamespace(t=T),
+        y=np.clip(measured, -1.5, np.inf)[:, None],
+    )
+    problem: Any = SimpleNamespace(records=records, targets=("mass.s",))
+    simulated: Any = SimpleNamespace(y=predicted[:, None])
+    return list(outliers(problem, simulated))
+
+
+def test_what_follows_its_record_has_none() -> None:
+    assert not sentences(np.sin(T), np.sin(T))
+    assert not sentences(np.sin(T), np.sin(T) + 0.3 * np.cos(T))  # a model that lacks something
+
+
+def test_outliers_are_counted_over_records() -> None:
+    measured = np.sin(T)
+    measured[[0, 100, 101, 300]] += [3.0, -2.0, -2.0, 0.5]
+    (sentence,) = sentences(measured, np.sin(T))
+    assert sentence.startswith("4 of 400 samples of mass.s lie far from the others (at 0, 2.506, ")
+    assert "make 100 % of what is left: leave them out, as nan, if they are wrong" in sentence
+
+
+def test_a_dropout_is_named() -> None:
+    measured = np.sin(T)
+    measured[220:245] = 1.0
+    (sentence,) = sentences(measured, np.sin(T))
+    assert sentence.startswith("25 of 400 samples")
+
+
+def test_an_event_that_comes_late_is_none() -> None:
+    assert not sentences(np.where(T > 5.0, 2.0, 0.0), np.where(T > 5.06, 2.0, 0.0))
+
+
+def test_samples_that_are_not_measured_do_not_count() -> None:
+    measured, weight = np.sin(T), np.ones(N)
+    measured[20:30], weight[20:30] = 50.0, 0.0
+    assert not sentences(measured, np.sin(T), weight)
+
+
+@pytest.mark.parametrize("beyond", [True, False])
+def test_a_sensor_at_its_limit_is_named(beyond: bool) -> None:
+    found = sentences(2 * np.sin(T), (2 if beyond else 1.5) * np.sin(T))
+    assert len(found) == beyond
+    for sentence in found:
+        assert "samples of mass.s have its least value, -1.5, where predictions go" in sentence
