@@ -39,6 +39,11 @@ STAGE_TOLERANCE = {"float64": 1e-9, "float32": 1e-5}
 STALLS, GROWS = 0.9, 10.0
 """Between these ratios of what two corrections leave of the equation, only roundoff is left, if they are tolerated."""
 
+FREE, SHRINKS, CREEPS = 1.0, 0.5, 1e-6
+"""With the derivatives of a stiff branch, corrections are small on any other branch, too. So where the equation is
+off by more than so many tolerances, a small correction is the last only if the next one shrinks by the second part. If
+it hardly does, and is more than the third part of what may remain, the derivatives are those of another branch."""
+
 OF_STALL = 0.3
 """The part of such a correction that may remain as error."""
 
@@ -113,6 +118,7 @@ class Newton(NamedTuple):
         x: the solution so far. factors: of the matrix, where it may be renewed.
         size: of the last correction over what is allowed. remains: of the equation before it, likewise.
         rate: by which corrections shrink. slow: whether that is slow.
+        small: whether the last one was. turned: whether the derivatives are those of another branch.
         made: how many there were. jacobians: and how often the matrix was made.
         done, failed: why it stops.
     """
@@ -123,6 +129,8 @@ class Newton(NamedTuple):
     remains: Float[Array, ""]
     rate: Float[Array, ""]
     slow: Bool[Array, ""]
+    small: Bool[Array, ""]
+    turned: Bool[Array, ""]
     made: Int[Array, ""]
     jacobians: Int[Array, ""]
     done: Bool[Array, ""]
@@ -188,7 +196,7 @@ def solve(
         patience: when to stop.
         scale: of the corrections, where the factors are those for another coefficient.
     """
-    whole = equation
+    whole, no = equation, jnp.array(False)
     equation, factors, guess, scale = without_derivatives((equation, factors, guess, scale))
 
     def correct(n: Newton) -> Newton:
@@ -207,17 +215,27 @@ def solve(
         rate = jnp.where(later, jnp.maximum(0.3 * n.rate, ratio), n.rate)
         tolerated = tolerances.size(correction, equation.before, x)
         stalls = (n.made > 1) & patience.stalls(tolerated, remains / n.remains, left)
-        done = (size == 0) | (size * jnp.minimum(1.0, rate) < left) | stalls
+        small = size * jnp.minimum(1.0, rate) < left
+        settled, turned = small, no
+        if not patience.renews:
+            is_off = tolerances.size(residual, equation.before, equation.known) > FREE
+            turned = later & is_off & (ratio > STALLS) & (size > CREEPS * left)
+            settled = small & ((n.small & (ratio < SHRINKS)) | ~is_off)
+        done = (size == 0) | settled | stalls
         diverged = later & (ratio > patience.diverges) & (n.slow | (not patience.renews))
+        diverged = diverged | turned
         failed = ~done & (diverged | (made >= patience.most)) | ~jnp.isfinite(size)
         kept = own if patience.renews else None
         jacobians = n.jacobians + (n.slow if patience.renews else 0)
         slow = later & (ratio > SLOW)
-        return Newton(x, kept, size, remains, rate, slow, made, jacobians, done & ~failed, failed)
+        done = done & ~failed
+        return Newton(
+            x, kept, size, remains, rate, slow, small, turned, made, jacobians, done, failed
+        )
 
-    one, none, no = jnp.ones((), guess.dtype), jnp.zeros((), jnp.int32), jnp.array(False)
+    one, none = jnp.ones((), guess.dtype), jnp.zeros((), jnp.int32)
     kept = factors if patience.renews else None
-    begun = Newton(guess, kept, one, one, one, no, none, none, no, no)
+    begun = Newton(guess, kept, one, one, one, no, no, no, none, none, no, no)
     found = lax.while_loop(lambda n: ~(n.done | n.failed), correct, begun)
     if patience.damps:
         again = lambda: _damped(equation, jacobian, tolerances, left, patience, found)  # noqa: E731

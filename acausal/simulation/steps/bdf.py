@@ -39,7 +39,7 @@ RENEW = 0.3
 KEEP = 20
 """Steps after which it is renewed in any case."""
 
-PATIENCE = Patience(4, 2.0, renews=False)
+PATIENCE = Patience(5, 2.0, renews=False)
 """A matrix is renewed between steps alone."""
 
 LEFT = 0.1
@@ -47,6 +47,9 @@ LEFT = 0.1
 
 INSIDE, OF_DEFECT = (0.36, 0.69), 0.002
 """Where in a step the right-hand side is looked at once more, and what a defect there counts as an error."""
+
+TURNS = 5
+"""A step's equation is begun again, with the derivatives where it has come to, so often at most."""
 
 WORTH = 1.5
 """A longer step is taken if it is so many times longer."""
@@ -66,6 +69,8 @@ class MultistepMemory(NamedTuple):
         failures: since the last step that counts.
         matrix: of Newton's method, factorized. c: the coefficient it was made for. age: steps since then.
         stale: whether it must be renewed.
+        guess: where the equation's derivatives are another branch's than at the prediction, the state so far.
+        turns: how often in a row that was so.
     """
 
     h: Float[Array, ""]
@@ -79,6 +84,8 @@ class MultistepMemory(NamedTuple):
     c: Float[Array, ""]
     age: Int[Array, ""]
     stale: Bool[Array, ""]
+    guess: State
+    turns: Int[Array, ""]
 
 
 class StepEquation(NamedTuple):
@@ -130,6 +137,8 @@ class Multistep(eqx.Module):
             jnp.ones_like(h),
             zero,
             jnp.array(True),
+            x,
+            zero,
         )
         return memory, Counts.of(rates=2)
 
@@ -153,16 +162,17 @@ class Multistep(eqx.Module):
         equation = Equation(Fields(_at, problem.field), end, c, known, m.states[0])
         problem, m = without_derivatives((problem, m))
         predicted, x_before = predicting @ m.states, m.states[0]
+        begin = jnp.where(m.turns > 0, m.guess, predicted)
         constant = error_constant(s, q)
         renew = m.stale | (m.age >= KEEP) | (jnp.abs(c / m.c - 1) > RENEW)
         matrix, made_for = lax.cond(
             renew,
-            lambda: (self.jacobian.factorized(problem.field.at(end), predicted, c), c),
+            lambda: (self.jacobian.factorized(problem.field.at(end), begin, c), c),
             lambda: (m.matrix, m.c),
         )
         scale, tolerances = 2 / (1 + c / made_for), problem.tolerances
         newton = solve(
-            equation, self.jacobian, matrix, predicted, tolerances, LEFT / constant, PATIENCE, scale
+            equation, self.jacobian, matrix, begin, tolerances, LEFT / constant, PATIENCE, scale
         )
         x, exact = lax.stop_gradient(newton.x), newton.x
         error = constant * problem.tolerances.size(x - predicted, x_before, x)
@@ -250,6 +260,7 @@ class Multistep(eqx.Module):
             wait=wait,
             failures=jnp.zeros_like(m.failures),
             stale=jnp.array(False),
+            turns=jnp.zeros_like(m.turns),
         )
 
     def _before(
@@ -257,10 +268,14 @@ class Multistep(eqx.Module):
     ) -> MultistepMemory:
         """What is known where a step does not count: a matrix to renew, or a shorter length."""
         unsolved, q = ~newton.done, m.order
-        failures = m.failures + jnp.where(unsolved & ~renewed, 0, 1)
+        turned = (
+            unsolved & newton.turned & (m.turns < TURNS)
+        )  # go on from there with its derivatives
+        kept = unsolved & (~renewed | turned)
+        failures = m.failures + jnp.where(kept, 0, 1)
         factor = 1 / ((CAUTIOUS * error) ** (1 / (q + 1)) + 1e-6)
         factor = jnp.clip(jnp.where(jnp.isfinite(factor), factor, 0.2), 0.2, 0.9)
-        factor = jnp.where(unsolved, jnp.where(renewed, 0.25, 1.0), factor)
+        factor = jnp.where(unsolved, jnp.where(kept, 1.0, 0.25), factor)
         lowered = ~unsolved & (failures >= 3)
         return m._replace(
             h=h * factor,
@@ -268,6 +283,8 @@ class Multistep(eqx.Module):
             wait=jnp.where(lowered, q + 1, m.wait),
             failures=failures,
             stale=unsolved,
+            guess=newton.x,
+            turns=jnp.where(turned, m.turns + 1, 0),
         )
 
     def adjoint(self, to_last: State) -> Float[Array, "points_1 n_states"]:
