@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import check_time, is_number, is_real
 from acausal.analysis.estimate import belief_at, filter_for
 from acausal.analysis.filtering import Belief, Linearized, Measured
-from acausal.analysis.tracking import TrackedModel, make_model, numbers_by_name
+from acausal.analysis.tracking import LONGER, TrackedModel, make_model, numbers_by_name
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, shown
 from acausal.modeling import ByName, by_name
@@ -47,6 +47,7 @@ class ObserverStep:
         model: with its sensors.
         how: the filter.
         sigma, walk: noise of the sensors and of the process.
+        sample_time: the usual time from step to step; a longer pause is several such steps [s].
         start: what it remembers before the first step.
     """
 
@@ -54,6 +55,7 @@ class ObserverStep:
     how: Linearized
     sigma: Float[Array, " p"]
     walk: Float[Array, " m"]
+    sample_time: float
     start: ObserverMemory
 
     @property
@@ -73,9 +75,15 @@ class ObserverStep:
         """What is remembered after a time, with inputs and measurements there; y is NaN where nothing is measured."""
         is_first = jnp.isnan(memory.t)
         since, low = jnp.where(is_first, t, memory.t), jnp.where(is_first, u, memory.u)
-        step = Steps(since, t - since, Samples(low, jnp.where(self.held, low, u)))
-        noise, belief = self.walk * jnp.sqrt(t - since), Belief(memory.mean, memory.covariance)
-        belief, _ = self.how.forecast(belief, lambda z: self.model.after(z, step), noise, None)
+        n = jnp.maximum(jnp.ceil((t - since) / self.sample_time - LONGER), 1).astype(jnp.int32)
+        h, change = (t - since) / n, (jnp.where(self.held, low, u) - low) / n
+        noise = self.walk * jnp.sqrt(h)
+
+        def forecast(k: Array, belief: Belief) -> Belief:
+            step = Steps(since + k * h, h, Samples(low + k * change, low + (k + 1) * change))
+            return self.how.forecast(belief, lambda z: self.model.after(z, step), noise, None)[0]
+
+        belief = jax.lax.fori_loop(0, n, forecast, Belief(memory.mean, memory.covariance))
         known = ~jnp.isnan(y)
         measured = Measured(jnp.where(known, y, 0.0), known, self.sigma)
         belief, _ = self.how.correct(belief, lambda z: self.model.read(z, t, u), measured, None)
@@ -260,7 +268,8 @@ def observer(
         sensors: what is measured, and the standard deviation of its noise.
         noise: of the process, by state or estimated parameter: the deviation of a random walk after one second. Those
             that `acausal.estimate` has found for a record are ``found.sensors`` and ``found.noise``.
-        sample_time: the usual time from step to step, for which the steps of the integration are chosen [s].
+        sample_time: the usual time from step to step, for which the steps of the integration are chosen; a longer
+            pause is several such steps [s].
         method: ``"ekf"`` or ``"ukf"``.
         dt, states, parameters, x0, params, solver: as of `acausal.estimate`; without ``states`` each has its nominal
             value as its standard deviation at the start.
@@ -304,4 +313,4 @@ def observer(
     q = jnp.asarray([float(walks.get(n, 0.0)) for n in order])
     nothing = jnp.full(len(system.inputs), jnp.nan)
     begin = ObserverMemory(jnp.asarray(jnp.nan), nothing, start.mean, start.covariance)
-    return Observer(ObserverStep(model, how, r, q, begin), float(late))
+    return Observer(ObserverStep(model, how, r, q, float(sample_time), begin), float(late))

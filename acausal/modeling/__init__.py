@@ -100,6 +100,7 @@ from acausal.modeling.names import (
     antiderivatives as antiderivatives,
     by_element as by_element,
     by_name as by_name,
+    elements_of as elements_of,
     full_name as full_name,
     names_in as names_in,
     names_matching as names_matching,

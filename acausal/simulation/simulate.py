@@ -198,10 +198,13 @@ def simulate(
 def _warn_of_another_solution(solution: Solution) -> None:
     """Warn where positions that a nonlinear loop computes jump: a linkage has gone to its other assembly."""
     pairs = solution.system.reduced.solved_positions
-    if not pairs or known((solution.t, solution.x)) is None or len(solution.t) < FEWEST:
+    if not pairs or len(solution.t) < FEWEST:
         return
-    t, (names, derivatives) = np.asarray(solution.t), zip(*pairs, strict=True)
-    positions, rates = np.split(np.asarray(solution[[*names, *derivatives]]).T, 2)
+    names, derivatives = zip(*pairs, strict=True)
+    found = known((solution.t, solution[[*names, *derivatives]]))
+    if found is None:
+        return
+    t, (positions, rates) = np.asarray(found[0]), np.split(np.asarray(found[1]).T, 2)
     moves = np.abs(np.diff(positions))
     fastest = np.maximum(np.abs(rates[:, :-1]), np.abs(rates[:, 1:])) * np.diff(t)
     around = sliding_window_view(np.pad(moves, ((0, 0), (4, 4)), "edge"), 9, 1)

@@ -146,7 +146,7 @@ def _words(
         return ("input", "continuous", "")
     if kind == INDICATOR:
         return ("local", "continuous", "calculated")
-    shown = kind == OUTPUT or outputs >= members
+    shown = outputs >= members
     of_state = "approx" if computed else "exact"
     initial = of_state if kind == STATE else "calculated"
     varies = "discrete" if held >= members else "continuous"
