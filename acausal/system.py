@@ -467,10 +467,15 @@ class System(LeavesCaches):
 
         Arguments:
             values: the point, from `values`.
-            names: the variables whose equations are looked at; by default the derivatives of the states.
+            names: the variables whose equations are looked at; by default the derivatives of the states, and what
+                conditions of events read.
         """
-        nodes = None if names is None else self.nodes_of(names)[0]
-        return explain_nonfinite(self.program, values, self.reduced.name, nodes)
+        if names is not None:
+            nodes = self.nodes_of(names)[0]
+            return explain_nonfinite(self.program, values, self.reduced.name, nodes)
+        guards = () if self.events is None else self.events.guards
+        read = self.program.in_copy((s for g in guards for s in g.formula.sources), 0)
+        return explain_nonfinite(self.program, values, self.reduced.name, None, read)
 
     def initial_state(
         self,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -36,14 +36,16 @@ def explain_nonfinite(
     values: Values,
     name: Callable[[int], str],
     nodes: Sequence[int] | None = None,
+    further: Collection[int] = (),
 ) -> str | None:
     """A sentence on the first instruction that has no finite value at a point, or None.
 
     Arguments:
         name: of a node, for messages.
-        nodes: those whose values are asked for; by default the derivatives of the states.
+        nodes: those whose values are asked for; by default the derivatives of the states, and ``further`` arrays.
     """
-    wanted = program.rate_sources if nodes is None else program.gather(nodes).sources
+    own = program.rate_sources if nodes is None else program.gather(nodes).sources
+    wanted = {*own, *further}
     for i, instruction, results, arrays in steps(program, values, wanted):
         bad = _nonfinite(results)
         if not bad:

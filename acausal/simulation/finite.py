@@ -21,6 +21,9 @@ from acausal.errors import user_level
 if TYPE_CHECKING:
     from acausal.system import System
 
+LOOKS = 11
+"""At so many points along a trajectory it is looked for why conditions are undefined."""
+
 AHEAD = (0.0, *np.geomspace(1e-6, 1.0, 7))
 """Where to look for a value that is not finite, as fractions of the time ahead."""
 
@@ -58,6 +61,22 @@ def warn_of_nonfinite(
     where = f"'{name}'{others} is {float(read[name][k])} first at t = {ts[k]:g} s"
     warnings.warn(
         f"{where}, and at {int(bad[name].sum())} of {len(ts)} times. {_reason(system, values, name, k)}",
+        stacklevel=user_level(),
+    )
+
+
+def warn_of_undefined(system: System, values: Values, steps: int) -> None:
+    """Warn that conditions of events had no value in some steps along a trajectory of n points."""
+    ts = np.asarray(values.t)
+    for k in dict.fromkeys(np.linspace(0, len(ts) - 1, LOOKS).astype(int).tolist()):
+        if reason := system.explain_nonfinite(_at(values, k)):
+            reason = f" At t = {ts[k]:g} s, {reason}"
+            break
+    else:
+        reason = ""
+    warnings.warn(
+        f"Conditions of events are undefined (nan) at the end of {steps} steps, and count as false there: events are "
+        f"missed.{reason}",
         stacklevel=user_level(),
     )
 

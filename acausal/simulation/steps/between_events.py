@@ -103,6 +103,7 @@ class EventsInStep(NamedTuple):
         bracketing: how the search for an instant goes on. grazes: whether the condition hardly changes there.
         doubted: whether the step is made shorter before its change of a condition is believed.
         part: the part of its length that it is made again with, where no search for an instant has begun; 1: none.
+        undefined: whether a condition's number is NaN at its end.
     """
 
     ok: Bool[Array, ""]
@@ -111,6 +112,7 @@ class EventsInStep(NamedTuple):
     grazes: Bool[Array, ""]
     doubted: Bool[Array, ""]
     part: Float[Array, ""]
+    undefined: Bool[Array, ""]
 
 
 class Landing(NamedTuple):
@@ -195,7 +197,7 @@ def look_within(
     events, ok, bracketing = held.watched, made.accepted, state.bracketing
     if events.timed.all():
         no, whole = jnp.array(False), jnp.ones_like(h)
-        return EventsInStep(ok, stop, bracketing, no, no, whole)
+        return EventsInStep(ok, stop, bracketing, no, no, whole, no)
     numbers = _numbers(method, held, made, t, h)
     found = look(events, bracketing, numbers, state.deadband, state.d, *lax.stop_gradient((t, h)))
     # a fast mode swings where stability limits the steps, and what depends on it changes to and fro
@@ -220,6 +222,7 @@ def look_within(
         found.grazes,
         doubted,
         lax.stop_gradient(part),
+        jnp.any(jnp.isnan(numbers[-1]) & ~events.timed),
     )
 
 

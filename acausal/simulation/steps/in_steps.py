@@ -14,6 +14,7 @@ from acausal.codegen import Field, Packed
 from acausal.errors import DataError, SimulationError, StepLimitError, listing, shown
 from acausal.events import Ahead, non_converged
 from acausal.simulation import solvers
+from acausal.simulation.finite import warn_of_undefined
 from acausal.simulation.inputs import TimeFunction, breaks, evaluate, evaluate_all
 from acausal.simulation.log import FEW_VALUES, VALUES, Log
 from acausal.simulation.run import Run
@@ -102,6 +103,9 @@ class InSteps:
         ts = posed.problem.ts
         values = cast(run.start, self.dtype)._replace(t=ts, x=x, d=saved_d)
         values = values._replace(u=evaluate_all(run.inputs, ts))
+        undefined = known(c.undefined)
+        if undefined is not None and np.ndim(undefined) == 0 and int(undefined):
+            warn_of_undefined(run.system, values, int(undefined))
         inputs = None if found.log is None else run.inputs
         return Solution(values, run.system, statistics, found.log, inputs)
 

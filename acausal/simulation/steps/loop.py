@@ -229,7 +229,7 @@ def advance(
         at_break = ok & aim.to_stop & (landing.t >= stop_at(problem, c.ahead) - early)
         ahead = (c.ahead + (at_break & (c.ahead < len(problem.breaks)))).astype(jnp.int32)
         searching = jnp.array(False) if seen is None else seen.bracketing.active
-        counts = _counted(problem, c.counts, aim, made, landing, row, ok, searching)
+        counts = _counted(problem, c.counts, aim, made, landing, row, ok, seen)
         why = _why(problem, c, counts, ok | searching, landing)
         reached, events = landing.t >= problem.end, None
         if c.events is not None and seen is not None:
@@ -319,11 +319,14 @@ def _counted(
     landing: Landing,
     row: Row,
     ok: Array,
-    searching: Array,
+    seen: between_events.EventsInStep | None,
 ) -> Counts:
     """What the run has cost with this step."""
+    searching = jnp.array(False) if seen is None else seen.bracketing.active
     counts = counts.plus(made.counts).plus(landing.cost)
     counts = counts.plus(Counts.of(steps=ok, rejected=~ok & ~searching, searches=~ok & searching))
+    if seen is not None:
+        counts = counts.plus(Counts.of(undefined=ok & seen.undefined))
     if problem.field.has_edges:
         counts = counts.plus(Counts.of(edges=ok & ((row.kind == BEND) | (row.kind == EDGE))))
     has_bound = problem.field.has_edges or problem.field.has_turns

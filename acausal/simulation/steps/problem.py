@@ -206,6 +206,7 @@ class Counts(NamedTuple):
         edges: steps that end at an edge. by_wave, by_span: steps as long as a sine, or `max_step`, allows.
         looks: steps that are repeated for what a look inside has shown.
         searches: steps that only search for the instant of an event.
+        undefined: steps at whose end a condition's number is NaN.
     """
 
     steps: Int[Array, ""]
@@ -218,6 +219,7 @@ class Counts(NamedTuple):
     by_span: Int[Array, ""]
     looks: Int[Array, ""]
     searches: Int[Array, ""]
+    undefined: Int[Array, ""]
 
     @staticmethod
     def of(**numbers: Any) -> Counts:
