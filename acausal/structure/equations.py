@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
-from acausal.errors import StructureError, listing
-from acausal.flattening import FEW_VARIANTS, FlatModel, Integers, Origin, Statement, specialised
+from acausal.errors import StructureError, listing, user_level
+from acausal.flattening import (
+    FEW_VARIANTS,
+    FlatModel,
+    Integers,
+    Origin,
+    Statement,
+    Template,
+    specialised,
+)
 from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
 from acausal.structure.discrete import discrete_nodes
+from acausal.structure.impulses import jump_of
 from acausal.structure.jacobian import Point, is_constant, parameter_values, partials
 
 
@@ -239,6 +249,7 @@ class Equations:
 
     def differentiate(self, equation: int) -> list[int]:
         """Append the derivative of an equation; returns its unknowns."""
+        self._warn_of_impulse(equation)
         template, sources = self.template[equation].differentiated()
         row = self.variables[equation]
         nodes: list[int] = []
@@ -259,6 +270,22 @@ class Equations:
         self.modules.append([self.modules[equation][c] for c in used])
         self.component.append(self.component[equation])
         return [v for v in _read(special, self.variables[-1]) if v not in self.known]
+
+    def _warn_of_impulse(self, equation: int) -> None:
+        """Warn if an equation that is differentiated jumps in time: its derivative is an impulse there."""
+        template = self.template[equation]
+        if not isinstance(template, Template) or template.modules or not template.depends_on_time():
+            return
+        own = self.parameter_values[np.asarray(self.parameters[equation], dtype=np.int64)]
+        if (
+            t := jump_of(template.residual, dict(zip(template.parameters, own, strict=True)))
+        ) is not None:
+            warnings.warn(
+                f"The model needs the derivative of '{self.origin[equation]}', which jumps at t = {t:g} s: the impulse "
+                "there is left out, with the energy that it brings. Put something between that gives way, such as a "
+                "resistance or a spring, or take a source that does not jump.",
+                stacklevel=user_level(),
+            )
 
     def insert_signals(self) -> None:
         """Put signals in the place of `Prescribed`; nothing is differentiated after this."""
