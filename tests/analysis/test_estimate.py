@@ -120,7 +120,13 @@ def test_the_gradient_of_the_likelihood_is_that_of_differences():
 
 
 def test_an_observer_steps_as_the_estimate_does():
-    data = record()
+    whole = record()
+    with_pause = np.r_[0:20, 35 : len(whole)]
+    data = ac.Data(
+        whole.time[with_pause],
+        {n: whole[n][with_pause] for n in ("push.f", *GIVEN["sensors"])},
+        missing="nan",
+    )
     found = ac.estimate(plain(), data, **GIVEN)
     given = {k: v for k, v in GIVEN.items() if k not in ("sensors", "noise")}
     seen = ac.observer(plain(), GIVEN["sensors"], GIVEN["noise"], H, **given)

@@ -35,6 +35,16 @@ class Mass(ac.Component):
         yield ac.Eq(self.m * ac.der(self.v), self.f - self.d * self.v - self.c * self.s**3)
 
 
+class Row(ac.Component):
+    """Three lags."""
+
+    x = ac.Variable(shape=3, start=1.0, fixed=True)
+
+    def equations(self) -> Iterator[Any]:
+        for i, x in enumerate(self.x):
+            yield ac.Eq(ac.der(x), (i + 1) * (1 - x) + 1)
+
+
 class Pulsed(ac.Component):
     """A lag that a pulse drives whose times are known, without events."""
 
@@ -240,6 +250,29 @@ def test_events_are_those_of_the_model(
     found = ac.simulate(system, end, inputs=inputs, **options)
     np.testing.assert_allclose(found[name], expected[name], atol=1e-9)
     assert len(found.events) >= 2
+
+
+def test_a_gradient_through_what_an_fmu_samples_and_keeps_is_warned_of(tmp_path: Path) -> None:
+    path = ac.export.fmu(ac.compile(Sampled()), tmp_path / "sampled.fmu", outputs=["x"])
+    for options in ({}, {"open_loop": True}):
+        system = ac.compile(ac.FMU(path, **options))
+
+        def end(x: Any, system: ac.System = system) -> Any:
+            return ac.simulate(system, 0.25, dt=0.05, x0={"x": x})["x"][-1]
+
+        if options:
+            jax.grad(end)(0.0)
+        else:
+            with pytest.warns(UserWarning, match=r"The gradient leaves out .* keeps \('u'\)"):
+                jax.grad(end)(0.0)
+
+
+def test_an_element_of_a_state_may_be_an_output(tmp_path: Path) -> None:
+    system = ac.compile(Row())
+    ac.export.fmu(system, tmp_path / "row.fmu", fmi="3.0", outputs=["x[3]"])
+    again = ac.compile(ac.FMU(tmp_path / "row.fmu"))
+    one, other = (ac.simulate(s, 1.0, dt=0.01)["x[3]"] for s in (system, again))
+    np.testing.assert_allclose(other, one, atol=1e-12)
 
 
 @pytest.mark.slow

@@ -7,7 +7,8 @@ import jax
 import pytest
 
 import acausal as ac
-from tests.support.parts import Equations
+from acausal.components import rotational
+from tests.support.parts import Equations, model
 
 Eq, der = ac.Eq, ac.der
 
@@ -111,3 +112,21 @@ def test_states_that_are_large_by_nature(start):
     component = Equations("n", lambda s: [Eq(der(s.n), 1e31)])
     component.modify(n=start)
     assert float(ac.simulate(ac.compile(component), (0, 1), dt=0.25).x[-1, 0]) >= 0.9e31
+
+
+def test_conditions_without_a_value_are_no_silent_result() -> None:
+    """Two frictions that lock one shaft: how they share its torque is not determined, and neither ever slides."""
+    made = model(
+        "torque.flange - shaft.flange_a",
+        "shaft.flange_b - left.flange_a",
+        "left.flange_b - right.flange_a",
+        torque=rotational.ConstantTorque(tau_constant=8.0),
+        shaft=rotational.Inertia(J=1.0, phi=ac.Start(0.0, fixed=True), w=ac.Start(0.0, fixed=True)),
+        left=rotational.BearingFriction(tau_pos=[[0.0, 2.0]]),
+        right=rotational.BearingFriction(tau_pos=[[0.0, 3.0]]),
+    )
+    expected = (
+        r"undefined \(nan\) at the end of \d+ steps.* At t = 0 s, .*singular.* lock the same motion"
+    )
+    with pytest.warns(UserWarning, match=expected):
+        ac.simulate(ac.compile(made), 1.0)

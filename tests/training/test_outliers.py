@@ -39,7 +39,10 @@ def test_outliers_are_counted_over_records() -> None:
     measured[[0, 100, 101, 300]] += [3.0, -2.0, -2.0, 0.5]
     (sentence,) = sentences(measured, np.sin(T))
     assert sentence.startswith("4 of 400 samples of mass.s lie far from the others (at 0, 2.506, ")
-    assert "make 100 % of what is left: leave them out, as nan, if they are wrong" in sentence
+    assert (
+        "make 100 % of what is left: leave them out (nan, missing='nan') if they are wrong"
+        in sentence
+    )
 
 
 def test_a_dropout_is_named() -> None:

@@ -29,7 +29,7 @@ STUCK, OVER = 0.01, 0.02
 """A sensor is at its limit if more than this part of the samples are, and predictions go beyond by the second part of
 the target's deviation."""
 
-LEAVE = "leave them out, as nan,"
+LEAVE = "leave them out (nan, missing='nan')"
 """What to do about wrong samples."""
 
 

@@ -193,3 +193,29 @@ def test_a_stiff_run_that_stops_says_where_and_why():
     )
     with pytest.raises(ac.SimulationError, match=r"BDF stopped at t = (1|0\.99)"):
         ac.simulate(broken, (0, 2), x0={"x": 0.0, "t": 0.0}, solver="bdf")
+
+
+def _half_wave(s: Any) -> list[Any]:
+    conducts = 0.04 * ac.log(1 + ac.maximum(s.i, 0) / 1e-6)
+    return [
+        ac.Eq(2e-3 * ac.der(s.i), 20 * ac.sin(100 * ac.pi * ac.time) - s.u - s.v),
+        ac.Eq(5e-4 * ac.der(s.v), s.i - s.v / 30),
+        ac.Eq(s.u, ac.where(s.i > 0, conducts, 1e8 * s.i)),
+    ]
+
+
+@pytest.mark.parametrize("solver", ["bdf", "auto"])
+def test_a_diode_that_blocks_hard_opens_in_time(solver: str) -> None:
+    """With the derivatives of the blocking branch, 5e10 1/s, corrections are tiny on the other one, too."""
+    component = Equations("i v u", _half_wave)
+    component.modify(i=ac.Start(0.0, fixed=True), v=ac.Start(0.0, fixed=True))
+    system, ts = ac.compile(component), np.linspace(0, 0.1, 251)
+
+    def by_hand(t: float, x: Any) -> list[float]:
+        u = 0.04 * np.log1p(x[0] / 1e-6) if x[0] > 0 else 1e8 * x[0]
+        return [(20 * np.sin(100 * np.pi * t) - u - x[1]) / 2e-3, (x[0] - x[1] / 30) / 5e-4]
+
+    exact = solve_ivp(by_hand, (0, 0.1), [0, 0], "Radau", ts, rtol=1e-9, atol=1e-12, max_step=1e-4)
+    for rtol in (1e-6, 1e-7, 1e-8):
+        found = ac.simulate(system, 0.1, saveat=ts, solver=solver, rtol=rtol)
+        assert np.max(np.abs(found["v"] - exact.y[1])) < 1e3 * rtol

@@ -1,0 +1,60 @@
+"""Signals that jump where a model needs their derivative are said to: the impulse is left out."""
+
+import warnings
+from typing import Any
+
+import pytest
+
+import acausal as ac
+from acausal.components import blocks, electrical, rotational
+from tests.support.parts import model
+
+JUMPS = [
+    (blocks.Step(startTime=0.5), "0.5"),
+    (blocks.Pulse(period=2.0, width=25.0), "0.5"),
+    (blocks.SawTooth(period=2.0), "2"),
+    (blocks.Ramp(startTime=0.5, duration=0.0), "0.5"),
+]
+SMOOTH = [
+    blocks.Sine(f=1.0),
+    blocks.Ramp(startTime=0.5, duration=2.0),
+    blocks.Trapezoid(rising=0.1, width=0.2, falling=0.1, period=1.0),
+    blocks.Step(startTime=-1.0),
+    blocks.TimeTable(table=[[0, 0], [1, 2]]),
+]
+
+
+def turned(source: ac.Component) -> ac.Component:
+    """A shaft whose speed is given exactly."""
+    return model(
+        "source.y - drive.w_ref",
+        "drive.flange - shaft.flange_a",
+        source=source,
+        drive=rotational.Speed(exact=True),
+        shaft=rotational.Inertia(J=1.0),
+    )
+
+
+@pytest.mark.parametrize(("source", "t"), JUMPS, ids=lambda v: type(v).__name__)
+def test_an_impulse_is_said_to_be_left_out(source: Any, t: str) -> None:
+    expected = f"the derivative of '{type(source).__name__}: y = .*', which jumps at t = {t} s"
+    with pytest.warns(UserWarning, match=expected):
+        ac.compile(turned(source))
+
+
+@pytest.mark.parametrize("source", SMOOTH, ids=lambda v: type(v).__name__)
+def test_what_does_not_jump_is_not_warned_of(source: Any) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ac.compile(turned(source))
+
+
+def test_a_resistance_takes_the_jump() -> None:
+    circuit = model(
+        "v.p - r.p", "r.n - c.p", "c.n - v.n", "v.n - g.p",
+        v=electrical.StepVoltage(V=1.0, startTime=0.5),
+        r=electrical.Resistor(R=1.0), c=electrical.Capacitor(C=1.0), g=electrical.Ground(),
+    )  # fmt: skip
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ac.compile(circuit)
