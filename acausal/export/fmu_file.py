@@ -55,8 +55,7 @@ from acausal.export.fmu_text.variables import event_indicators, shown_by_others,
 from acausal.export.needs import need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.files import file_to_write, write_files
-from acausal.flattening import is_hidden
-from acausal.modeling import Discrete, elements_of, names_in
+from acausal.modeling import elements_of, names_in
 from acausal.simulation import STABILITY_LIMIT, fastest_mode
 from acausal.system import System
 
@@ -126,9 +125,6 @@ def fmu(
     wanted = _wanted(outputs, system)
     merged = set(shown_by_others(system, wanted, scalars))
     own = [n for n in wanted if n not in merged]
-    own += [
-        n for n in _kept(system) if n.partition("[")[0] not in {w.partition("[")[0] for w in own}
-    ]
     watch = watched(system, ranges, "fmu")
     text = model_text(system, params, name, own, solver, True, np.float64, watch)
     if text.name.startswith(("fmu_", "fmi2_", "fmi3_")):
@@ -327,18 +323,6 @@ def _known(inputs: Sequence[str] | None, known: Sequence[str]) -> tuple[str, ...
     for name in chosen:
         known_name(name, known, "export.fmu: the model has no input")
     return chosen
-
-
-def _kept(system: System) -> list[str]:
-    """Numbers that are computed at events and kept: who differentiates the FMU should know of them."""
-    layout = system.flat.layout
-    places = [
-        layout.find_variable(system.reduced.name(i)) for i in system.reduced.discrete.tolist()
-    ]
-    declared = [None if i is None else layout.variable_declaration(i) for i in places]
-    kinds = [isinstance(d, Discrete) and d.kind == "real" for d in declared]
-    names = map(system.reduced.name, system.reduced.discrete.tolist())
-    return [n for n, is_real in zip(names, kinds, strict=True) if is_real and not is_hidden(n)]
 
 
 def _wanted(outputs: Sequence[str] | None, system: System) -> tuple[str, ...]:

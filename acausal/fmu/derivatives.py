@@ -25,6 +25,9 @@ Numbers = np.ndarray[Any, np.dtype[np.float64]]
 Function = Callable[[int, int], int]
 """A function of two addresses, which returns how far an event had to be shifted."""
 
+Look = Callable[[Numbers, Numbers, Numbers], None]
+"""Looks at some arguments, and what a function gives for them and for others close to them."""
+
 Fast = Callable[[Numbers, list[int], Numbers], dict[int, int]]
 """Fills rows of some columns of a Jacobian without difference quotients; by column, how many, from the first."""
 
@@ -43,6 +46,7 @@ class Differentiated:
     Attributes:
         function: of ``width`` numbers, which gives ``height``. scales: sizes of arguments.
         columns: arguments that it depends on. lock: held while the FMU is called. fast: knows some columns.
+        look: at what quotients are made of.
         central: whether quotients are central: an indicator of events may jump where it changes its sign, and whether
             that is before or behind the present values is chance. The instant's derivative is the ratio of two.
     """
@@ -55,6 +59,7 @@ class Differentiated:
     lock: AbstractContextManager[Any]
     fast: Fast = no_columns
     central: bool = False
+    look: Look | None = None
 
     def register(self) -> int:
         """The number of the function; the next two are those of its first and second derivatives."""
@@ -112,6 +117,8 @@ class Differentiated:
             (_, high, above), (_, low, below) = found
             return (above - below) / (high - low)
         _, place, there = min(found, key=lambda f: f[0])
+        if self.look is not None:
+            self.look(given, first, there)
         return (there - first) / (place - value)
 
 

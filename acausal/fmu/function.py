@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from functools import partial
 from typing import Any, ClassVar, Literal
 
@@ -14,7 +13,7 @@ from jax.custom_derivatives import SymbolicZero
 from jaxtyping import Array, Float
 
 from acausal._jax import HOST_FAILURES, call_host
-from acausal.errors import AcausalError, SimulationError, listing, user_level
+from acausal.errors import AcausalError, SimulationError
 from acausal.fmu.cosimulation import Stepped
 from acausal.fmu.description import CLOCK
 from acausal.fmu.model_exchange import NEVER, Evaluated
@@ -42,8 +41,6 @@ class FMUFunction(eqx.Module):
         number, rows = computed(part).functions[self.kind]
         kind = jnp.result_type(*values, np.float32)
         given = [jnp.asarray(v, kind) for v in values]
-        if self.kind == "event" and part.keeps and not part.open_loop:
-            given = list(_kept(part, *given))
         if self.kind in ("take", "event"):
             known = part.open_loop or part.memory  # by what the model remembers of them
             for place, is_real in part.sampled.items():
@@ -61,26 +58,6 @@ class FMUFunction(eqx.Module):
         """Why the FMU last gave no finite numbers, if it said so."""
         found = [HOST_FAILURES.pop(n) for n in computed(self.part).numbers if n in HOST_FAILURES]
         return found[0] if found else None
-
-
-@partial(jax.custom_jvp, nondiff_argnums=(0,))
-def _kept(part: Part, *values: Float[Array, ""]) -> tuple[Float[Array, ""], ...]:
-    return values
-
-
-def _warn(part: Part, at: tuple[Array, ...], along: tuple[Any, ...]) -> tuple[Any, Any]:
-    """What an FMU keeps inside has no derivative."""
-    if not all(isinstance(tangent, SymbolicZero) for tangent in along):
-        warnings.warn(
-            f"The gradient leaves out what the FMU '{part.description.model}' computes at its events and keeps "
-            f"({listing(part.keeps, 4)}), so it is wrong where that acts on its states: build what samples of our "
-            "components. If it does not act on them, ac.FMU(..., open_loop=True).",
-            stacklevel=user_level(),
-        )
-    return at, along
-
-
-_kept.defjvp(_warn, symbolic_zeros=True)
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import ctypes as C
 import math
+import warnings
 from collections import OrderedDict
 from typing import Any
 
 import numpy as np
 
+from acausal.errors import user_level
 from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import Differentiated, Numbers
 from acausal.fmu.description import REAL
@@ -17,6 +19,9 @@ from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, WARNING, DiscardError, FMUError
 from acausal.fmu.part import Part
+
+DIFFERS = 1e-10
+"""Rates that differ by more than this part of them, differ by more than rounding."""
 
 
 class Exchange(EventMode):
@@ -119,6 +124,7 @@ class Evaluated(Computed):
 
     def __init__(self, part: Part) -> None:
         super().__init__(part)
+        self._keeps = False
         self._firsts: OrderedDict[bytes, tuple[float, bytes]] = OrderedDict()
         self._given = C.c_double * (self._behind // BYTES)
         n, indicators = part.n, self.description.indicators
@@ -132,7 +138,9 @@ class Evaluated(Computed):
             evaluate=Differentiated(
                 self._evaluate, width, part.n_values, **common, fast=self._fast_columns, central=indicators > 0
             ),
-            event=Differentiated(self._event, width + indicators + 1, 1 + part.n_next + n, **common),
+            event=Differentiated(
+                self._event, width + indicators + 1, 1 + part.n_next + n, **common, look=self._look_behind
+            ),
             begin=Differentiated(self._begin, width, 1 + n, **common),
         )  # fmt: skip
         self.first_event, self.first_states = NEVER, [0.0] * n
@@ -239,6 +247,29 @@ class Evaluated(Computed):
             behind = np.array([after.history, *after.next]).tobytes() + after.numbers
             C.memmove(into, behind, len(behind))
             return after.shifts
+
+    def _look_behind(self, given: Numbers, first: Numbers, there: Numbers) -> None:
+        """Warn, once, if an event keeps a number inside that depends on its arguments, and that the rates depend on.
+
+        Then the same states, inputs and parameters have other rates behind an event whose arguments were close by.
+        """
+        part, width = self.part, self._behind // BYTES
+        if self._keeps or part.open_loop or first[0] == there[0]:
+            return
+        at, values = given[:width].copy(), np.zeros((2, part.n_values))
+        at[2 : 2 + part.n] = first[1 + part.n_next :]
+        for row, found in zip(values, (first, there), strict=True):
+            at[1] = found[0]
+            self._evaluate(at.ctypes.data, row.ctypes.data)
+        one, other = values[:, : part.n]
+        self._keeps = bool((abs(one - other) > DIFFERS * np.maximum(abs(one), abs(other))).any())
+        if self._keeps:
+            warnings.warn(
+                f"The gradient is wrong: the FMU '{self.description.model}' samples a number at an event and keeps it "
+                "inside, where it has no derivative, and its states follow it. Build what samples of our components; "
+                "or, if its effect is meant to be left out, ac.FMU(..., open_loop=True).",
+                stacklevel=user_level(),
+            )
 
     def _fast_columns(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:
         """Rates and results by states and inputs, by the FMU's directional derivatives, where it has them."""

@@ -82,19 +82,6 @@ class Part:
         return {first + i: v.type in REAL for i, v in enumerate(inputs) if held[i]}
 
     @cached_property
-    def keeps(self) -> tuple[str, ...]:
-        """Numbers that model exchange computes at events and keeps inside, where nobody knows their derivatives."""
-        return tuple(
-            name
-            for name, v in self.description.variables.items()
-            if v.type in REAL
-            and v.variability == "discrete"
-            and v.causality in ("local", "output")
-            and not v.is_clocked
-            and self.kind == "me"
-        )
-
-    @cached_property
     def key(self) -> str:
         """It stands for all that the part is."""
         of = {**self.__getstate__(), "path": "", "description": ""}

@@ -146,7 +146,7 @@ def _words(
         return ("input", "continuous", "")
     if kind == INDICATOR:
         return ("local", "continuous", "calculated")
-    shown = outputs >= members
+    shown = kind == OUTPUT or outputs >= members
     of_state = "approx" if computed else "exact"
     initial = of_state if kind == STATE else "calculated"
     varies = "discrete" if held >= members else "continuous"
