@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NoReturn
 
 import jax
 import jax.numpy as jnp
@@ -32,8 +32,13 @@ from acausal.modeling import ByName, by_element, by_name, names_in
 from acausal.structure import ReducedModel
 
 MAX_STEPS = 100
+RELAXING, SHORTER, GROWTH = 200, 4.0, (0.5, 10.0)
+"""So many steps lead to rest; one that leads nowhere is made so much shorter, others grow between these factors."""
+
 LEFT_OVER = 1e-6
 """How far off a condition may be, in nominal values."""
+ROUNDING = 1e-9
+"""A condition is met but for rounding if states move by less, in nominal values, to meet it."""
 INDEPENDENT = 1e-9
 """Derivatives below this fraction of the largest one count as zero."""
 
@@ -308,10 +313,44 @@ class Initializer(LeavesCaches):
 
     def _found(self, plan: InitializationProblem, start: Values) -> tuple[Array, Array, Array]:
         """The states, the residuals of the conditions, and their Jacobian by the states that moved."""
-        x, rest, jacobian = self._satisfied(plan, start)
-        if not plan.least_squares and not traced(rest):
-            self._check(plan, start._replace(x=x), np.asarray(rest))
-        return x, rest, jacobian
+        found = self._satisfied(plan, start)
+        if plan.least_squares or traced(found[1]):
+            return found
+        rests = plan.moved == plan.resting and not plan.starts
+        if rests and not _holds(*found[1:]):
+            relaxed = start._replace(x=self._relaxed(plan, start))
+            again = self._satisfied(plan, relaxed)
+            found = again if _holds(*again[1:]) else found
+        if not _holds(*found[1:]):
+            self._refuse(plan, start._replace(x=found[0]), np.asarray(found[1]))
+        return found
+
+    def _relaxed(self, plan: InitializationProblem, start: Values) -> Array:
+        """States that all come to rest, each after a time of its own: linearly implicit steps that grow as they do so.
+
+        C. T. Kelley, D. E. Keyes: Convergence Analysis of Pseudo-Transient Continuation, SIAM Journal on Numerical
+        Analysis 35 (1998).
+        """
+        free = np.asarray(plan.moved, dtype=np.int64)
+
+        def rates(x: Array) -> Array:
+            moved = start._replace(x=start.x.at[free].set(x))
+            return self.conditions.residuals((), plan.resting, moved)
+
+        look = jax.jit(lambda x: (rates(x), jax.jacfwd(rates)(x)))
+        x = np.asarray(start.x[free])
+        f, jacobian = map(np.asarray, look(x))
+        h = 1 / max(float(np.max(np.abs(jacobian), initial=0.0)), np.finfo(float).tiny)
+        for _ in range(RELAXING):
+            step = _smallest(jnp.eye(len(x)) / h - jacobian, jnp.asarray(f))
+            there = x + np.asarray(step)
+            g, jacobian_there = map(np.asarray, look(there))
+            if not np.isfinite(g).all():
+                h /= SHORTER
+                continue
+            h *= float(np.clip(np.linalg.norm(f) / max(np.linalg.norm(g), 1e-300), *GROWTH))
+            x, f, jacobian = there, g, jacobian_there
+        return start.x.at[free].set(x)
 
     @cached_property
     def _satisfied(self) -> Callable[[InitializationProblem, Values], tuple[Array, Array, Array]]:
@@ -355,10 +394,8 @@ class Initializer(LeavesCaches):
 
     # -- errors ------------------------------------------------------------------------------------
 
-    def _check(self, plan: InitializationProblem, found: Values, rest: np.ndarray) -> None:
+    def _refuse(self, plan: InitializationProblem, found: Values, rest: np.ndarray) -> NoReturn:
         wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
-        if not len(wrong):
-            return
         names = self.conditions.names(plan.starts, plan.resting)
         if not np.isfinite(rest).all():
             start = found._replace(x=self.conditions.starts(found.packed))
@@ -400,6 +437,16 @@ class Initializer(LeavesCaches):
         jacobian = np.asarray(jax.jacfwd(residual)(found.x))[wrong]
         hit = np.abs(jacobian).max(axis=0, initial=0.0) > 0
         return [n for i, n in enumerate(self.names) if hit[i] and i not in plan.moved]
+
+
+def _holds(rest: ArrayLike, jacobian: ArrayLike) -> bool:
+    """Whether conditions are met, by what is left of them: little, or what rounding makes of fast rates."""
+    left, by = np.asarray(rest), np.asarray(jacobian)
+    if (np.abs(left) < LEFT_OVER).all() or not (np.isfinite(left).all() and by.size):
+        return bool((np.abs(left) < LEFT_OVER).all())
+    change = np.asarray(_smallest(jnp.asarray(by), jnp.asarray(left)))
+    met = np.abs(left - by @ change) < LEFT_OVER
+    return bool(met.all() and (np.abs(change) < ROUNDING).all())
 
 
 def _roles(plan: InitializationProblem, jacobian: np.ndarray) -> list[str]:
