@@ -6,6 +6,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import electrical as el, rotational as rot
+from tests.support.parts import model
 
 
 class Motor(ac.Component):
@@ -136,3 +137,17 @@ def test_a_model_whose_modes_contradict_its_rest_is_refused():
     ):
         with pytest.raises(ac.InitializationError, match=r"no discrete variables agree .* 'on'"):
             rest()
+
+
+def test_a_transistor_comes_to_rest_where_newton_alone_does_not_find_it() -> None:
+    made = model(
+        "supply.p - above.p", "supply.p - collector.p", "above.n - below.p", "above.n - T.B",
+        "collector.n - T.C", "T.E - emitter.p", "supply.n - below.n", "supply.n - emitter.n",
+        "supply.n - ground.p",
+        supply=el.ConstantVoltage(V=12.0), above=el.Resistor(R=47e3), below=el.Resistor(R=10e3),
+        collector=el.Resistor(R=4.7e3), emitter=el.Resistor(R=1e3), T=el.NPN(), ground=el.Ground(),
+    )  # fmt: skip
+    system = ac.compile(made)
+    point, run = ac.operating_point(system), ac.simulate(system, 1e-3)
+    assert point["T.C.v"] == pytest.approx(float(run["T.C.v"][-1]), abs=1e-5)
+    assert point["T.B.v"] == pytest.approx(1.93375, abs=1e-5)
