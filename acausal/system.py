@@ -461,21 +461,23 @@ class System(LeavesCaches):
         return self.initializer.closed(values)
 
     def explain_nonfinite(
-        self, values: Values, names: str | Sequence[str] | None = None
+        self,
+        values: Values,
+        names: str | Sequence[str] | None = None,
+        *,
+        conditions: bool = False,
     ) -> str | None:
         """A sentence on the first equation that has no finite value at a point, or None.
 
         Arguments:
             values: the point, from `values`.
-            names: the variables whose equations are looked at; by default the derivatives of the states, and what
-                conditions of events read.
+            names: the variables whose equations are looked at; by default the derivatives of the states.
+            conditions: whether what conditions of events read is looked at, too.
         """
-        if names is not None:
-            nodes = self.nodes_of(names)[0]
-            return explain_nonfinite(self.program, values, self.reduced.name, nodes)
-        guards = () if self.events is None else self.events.guards
+        nodes = None if names is None else self.nodes_of(names)[0]
+        guards = self.events.guards if conditions and self.events is not None else ()
         read = self.program.in_copy((s for g in guards for s in g.formula.sources), 0)
-        return explain_nonfinite(self.program, values, self.reduced.name, None, read)
+        return explain_nonfinite(self.program, values, self.reduced.name, nodes, read)
 
     def initial_state(
         self,

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 
+MOST = 1_000_000
+"""A pause is so many steps at most."""
+
 ROUNDING = 1e-9
 """Measurements may be later than allowed by this part of it."""
 
@@ -75,7 +78,8 @@ class ObserverStep:
         """What is remembered after a time, with inputs and measurements there; y is NaN where nothing is measured."""
         is_first = jnp.isnan(memory.t)
         since, low = jnp.where(is_first, t, memory.t), jnp.where(is_first, u, memory.u)
-        n = jnp.maximum(jnp.ceil((t - since) / self.sample_time - LONGER), 1).astype(jnp.int32)
+        n = jnp.ceil((t - since) / self.sample_time - LONGER)
+        n = jnp.clip(n, 1, MOST).astype(jnp.int32)
         h, change = (t - since) / n, (jnp.where(self.held, low, u) - low) / n
         noise = self.walk * jnp.sqrt(h)
 

@@ -156,6 +156,8 @@ def _name(title: str, name: str | None) -> str:
         raise DataError(
             f"export.c: name={shown(name)} is no name in C; use letters, digits and underscores."
         )
+    if name is None and chosen in RESERVED:
+        return f"{chosen}_model"
     if chosen in RESERVED:
         raise DataError(
             f"export.c: name='{chosen}' is a word of C or of the model's file; give another."

@@ -68,9 +68,10 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
             key = form_number, index
             if key not in start_of_form:
                 start = getattr(component, d.start) if isinstance(d.start, str) else d.start
-                shape = component._node.shape(d.name, d)
+                shape = component._node.shape(d.name, d) or ()
                 given = np.shape(np.asarray(d.start, dtype=object))
-                if shape and any(n > most for n, most in zip(given, shape, strict=False)):
+                many = any(n > most for n, most in zip(given, shape, strict=False))
+                if shape and (many or len(given) > len(shape)):
                     raise DeclarationError(
                         f"the start of '{d.name}' has the shape {given}, the variable {shape}"
                     )

@@ -12,7 +12,7 @@ import numpy as np
 
 from acausal.errors import user_level
 from acausal.fmu.computed import Computed
-from acausal.fmu.derivatives import Differentiated, Numbers
+from acausal.fmu.derivatives import STEP, Differentiated, Numbers
 from acausal.fmu.description import REAL
 from acausal.fmu.event_mode import EventMode, Info
 from acausal.fmu.histories import REMEMBERED, AfterEvent, PastEvent
@@ -20,8 +20,9 @@ from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, WARNING, DiscardError, FMUError
 from acausal.fmu.part import Part
 
-DIFFERS = 1e-10
-"""Rates that differ by more than this part of them, differ by more than rounding."""
+LOOKS, DIFFERS = 20, 1e-2
+"""So many pairs of events are looked at; their rates differ, beyond what is rounding or solved within the FMU, if they
+do so by more than this part of what the difference of the arguments is."""
 
 
 class Exchange(EventMode):
@@ -124,7 +125,7 @@ class Evaluated(Computed):
 
     def __init__(self, part: Part) -> None:
         super().__init__(part)
-        self._keeps = False
+        self._looks = 0
         self._firsts: OrderedDict[bytes, tuple[float, bytes]] = OrderedDict()
         self._given = C.c_double * (self._behind // BYTES)
         n, indicators = part.n, self.description.indicators
@@ -254,16 +255,17 @@ class Evaluated(Computed):
         Then the same states, inputs and parameters have other rates behind an event whose arguments were close by.
         """
         part, width = self.part, self._behind // BYTES
-        if self._keeps or part.open_loop or first[0] == there[0]:
+        if self._looks >= LOOKS or part.open_loop or first[0] == there[0]:
             return
+        self._looks += 1
         at, values = given[:width].copy(), np.zeros((2, part.n_values))
         at[2 : 2 + part.n] = first[1 + part.n_next :]
         for row, found in zip(values, (first, there), strict=True):
             at[1] = found[0]
             self._evaluate(at.ctypes.data, row.ctypes.data)
         one, other = values[:, : part.n]
-        self._keeps = bool((abs(one - other) > DIFFERS * np.maximum(abs(one), abs(other))).any())
-        if self._keeps:
+        if (abs(one - other) > DIFFERS * STEP * np.maximum(abs(one), abs(other))).any():
+            self._looks = LOOKS
             warnings.warn(
                 f"The gradient is wrong: the FMU '{self.description.model}' samples a number at an event and keeps it "
                 "inside, where it has no derivative, and its states follow it. Build what samples of our components; "

@@ -125,12 +125,9 @@ class Chosen:
             self.inputs = [v for v in self.inputs if v.name not in values]
         results = [known[n] for n in dict.fromkeys((*description.outputs, *observe))]
         arrays = [known[n] for n in description.states if kind == "me" and known[n].size > 1]
-        elements = {
-            e for v in arrays for e in v.names
-        }  # such an output has its name and value twice
-        self.results = [
-            v for v in results if v.type in (*NUMBERS, CLOCK) and v.name not in elements
-        ]
+        elements = {e for v in arrays for e in v.names}  # an output that is one stands twice
+        results = [v for v in results if v.name not in elements]
+        self.results = [v for v in results if v.type in (*NUMBERS, CLOCK)]
 
 
 def _is_setting(variable: FMUVariable) -> bool:

@@ -32,7 +32,7 @@ from acausal.modeling import ByName, by_element, by_name, names_in
 from acausal.structure import ReducedModel
 
 MAX_STEPS = 100
-RELAXING, SHORTER, GROWTH = 200, 4.0, (0.5, 10.0)
+RELAXING, SHORTER, GROWTH, TINY = 200, 4.0, (0.5, 10.0), 1e-300
 """So many steps lead to rest; one that leads nowhere is made so much shorter, others grow between these factors."""
 
 LEFT_OVER = 1e-6
@@ -332,25 +332,45 @@ class Initializer(LeavesCaches):
         Analysis 35 (1998).
         """
         free = np.asarray(plan.moved, dtype=np.int64)
-
-        def rates(x: Array) -> Array:
-            moved = start._replace(x=start.x.at[free].set(x))
-            return self.conditions.residuals((), plan.resting, moved)
-
-        look = jax.jit(lambda x: (rates(x), jax.jacfwd(rates)(x)))
-        x = np.asarray(start.x[free])
-        f, jacobian = map(np.asarray, look(x))
+        nominal = np.asarray(self.conditions.nominal)[free]
+        x, f, jacobian = np.asarray(start.x)[free] / nominal, *self._rates(plan, start, start.x)
         h = 1 / max(float(np.max(np.abs(jacobian), initial=0.0)), np.finfo(float).tiny)
         for _ in range(RELAXING):
-            step = _smallest(jnp.eye(len(x)) / h - jacobian, jnp.asarray(f))
-            there = x + np.asarray(step)
-            g, jacobian_there = map(np.asarray, look(there))
-            if not np.isfinite(g).all():
+            if not np.isfinite(f).all() or (np.abs(f) < LEFT_OVER).all():
+                break
+            with np.errstate(all="ignore"):
+                there = x + np.linalg.solve(np.eye(len(x)) / h - jacobian, f)
+            g, jacobian_there = self._rates(plan, start, start.x.at[free].set(there * nominal))
+            if np.isfinite(g).all():
+                h *= float(np.clip(np.linalg.norm(f) / max(np.linalg.norm(g), TINY), *GROWTH))
+                x, f, jacobian = there, g, jacobian_there
+            else:
                 h /= SHORTER
-                continue
-            h *= float(np.clip(np.linalg.norm(f) / max(np.linalg.norm(g), 1e-300), *GROWTH))
-            x, f, jacobian = there, g, jacobian_there
-        return start.x.at[free].set(x)
+        return start.x.at[free].set(x * nominal)
+
+    @cached_property
+    def _looked(self) -> Callable[[InitializationProblem, Values], tuple[Array, Array]]:
+        """The rates of resting states, in nominal values, and their Jacobian, compiled once for every plan."""
+
+        @compiled
+        def looked(plan: InitializationProblem, at: Values) -> tuple[Array, Array]:
+            free = np.asarray(plan.moved, dtype=np.int64)
+            nominal = self.conditions.nominal[free]
+
+            def rates(z: Array) -> Array:
+                moved = at._replace(x=at.x.at[free].set(z * nominal))
+                return self.conditions.residuals((), plan.resting, moved)
+
+            z = at.x[free] / nominal
+            return rates(z), jax.jacfwd(rates)(z)
+
+        return looked
+
+    def _rates(
+        self, plan: InitializationProblem, start: Values, x: Array
+    ) -> tuple[np.ndarray, np.ndarray]:
+        f, jacobian = self._looked(plan, start._replace(x=x))
+        return np.asarray(f), np.asarray(jacobian)
 
     @cached_property
     def _satisfied(self) -> Callable[[InitializationProblem, Values], tuple[Array, Array, Array]]:

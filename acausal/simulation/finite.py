@@ -69,7 +69,7 @@ def warn_of_undefined(system: System, values: Values, steps: int) -> None:
     """Warn that conditions of events had no value in some steps along a trajectory of n points."""
     ts = np.asarray(values.t)
     for k in dict.fromkeys(np.linspace(0, len(ts) - 1, LOOKS).astype(int).tolist()):
-        if reason := system.explain_nonfinite(_at(values, k)):
+        if reason := system.explain_nonfinite(_at(values, k), conditions=True):
             reason = f" At t = {ts[k]:g} s, {reason}"
             break
     else:

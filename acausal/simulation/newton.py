@@ -39,10 +39,11 @@ STAGE_TOLERANCE = {"float64": 1e-9, "float32": 1e-5}
 STALLS, GROWS = 0.9, 10.0
 """Between these ratios of what two corrections leave of the equation, only roundoff is left, if they are tolerated."""
 
-FREE, SHRINKS, CREEPS = 1.0, 0.5, 1e-6
+FREE, SHRINKS, CREEPS, ROUNDING = 1.0, 0.5, 1e-6, 16.0
 """With the derivatives of a stiff branch, corrections are small on any other branch, too. So where the equation is
 off by more than so many tolerances, a small correction is the last only if the next one shrinks by the second part. If
-it hardly does, and is more than the third part of what may remain, the derivatives are those of another branch."""
+it hardly does, the derivatives are those of another branch; unless it is less than the third part of what may remain,
+or than so many rounding errors of the state."""
 
 OF_STALL = 0.3
 """The part of such a correction that may remain as error."""
@@ -77,6 +78,7 @@ class Patience(NamedTuple):
         most: corrections at most. diverges: the ratio of two corrections from which on it is given up.
         renews: whether the matrix is renewed where corrections shrink slowly.
         damps: whether it begins again with shorter corrections where it fails.
+        doubts: whether the rates may have branches, so that a small correction is not taken at its word.
         least: the size of states, by precision, down to which corrections are relative to it while they still shrink;
             ``None`` where they are what the tolerances say.
     """
@@ -85,6 +87,7 @@ class Patience(NamedTuple):
     diverges: float
     renews: bool = True
     damps: bool = False
+    doubts: bool = False
     least: Mapping[str, float] | None = None
 
     def size(self, tolerances: Tolerances, change: State, *states: State) -> Float[Array, ""]:
@@ -217,10 +220,12 @@ def solve(
         stalls = (n.made > 1) & patience.stalls(tolerated, remains / n.remains, left)
         small = size * jnp.minimum(1.0, rate) < left
         settled, turned = small, no
-        if not patience.renews:
+        if patience.doubts:
             is_off = tolerances.size(residual, equation.before, equation.known) > FREE
-            turned = later & is_off & (ratio > STALLS) & (size > CREEPS * left)
-            settled = small & ((n.small & (ratio < SHRINKS)) | ~is_off)
+            least = ROUNDING * jnp.finfo(x.dtype).eps * tolerances.size(x, equation.before, x)
+            is_noise = size <= jnp.maximum(least, CREEPS * left)
+            turned = later & is_off & (ratio > STALLS) & (ratio < patience.diverges) & ~is_noise
+            settled = small & ((n.small & ((ratio < SHRINKS) | is_noise)) | ~is_off)
         done = (size == 0) | settled | stalls
         diverged = later & (ratio > patience.diverges) & (n.slow | (not patience.renews))
         diverged = diverged | turned

@@ -198,7 +198,7 @@ def simulate(
 def _warn_of_another_solution(solution: Solution) -> None:
     """Warn where positions that a nonlinear loop computes jump: a linkage has gone to its other assembly."""
     pairs = solution.system.reduced.solved_positions
-    if not pairs or len(solution.t) < FEWEST:
+    if not pairs or known((solution.t, solution.x)) is None or len(solution.t) < FEWEST:
         return
     names, derivatives = zip(*pairs, strict=True)
     found = known((solution.t, solution[[*names, *derivatives]]))

@@ -9,47 +9,55 @@ import numpy as np
 import sympy as sp
 from sympy.core.relational import Relational
 
+from acausal.flattening import SIGNS, STEPS
 from acausal.modeling import literal, time
 
 PERIODS = 3
 """Of what repeats, so many periods are looked at."""
 
-ASIDE, JUMP = 1e-9, 1e-6
-"""Values are compared so far before and behind an instant, and must differ by the second part of the largest."""
+ASIDE, JUMP, STAYS = (1e-6, 1e-8), 1e-9, 0.5
+"""Values are compared so far before and behind an instant, and differ by more than the second part of the largest. A
+jump is as large if the distance is shorter, to the third part; a steep ramp is not."""
 
 
 def jump_of(expression: Any, values: Mapping[sp.Symbol, float]) -> float | None:
-    """A time after zero at which an expression of time jumps, with numbers for its symbols; None if there is none."""
-    number = literal(expression)
-    if not number.has(sp.Piecewise, sp.floor, sp.sign):
+    """A time after zero at which what time alone makes of an expression jumps; None if there is none.
+
+    Arguments:
+        values: the numbers of parameters. What depends on other symbols is left out.
+    """
+    number = literal(expression).xreplace({s: sp.Float(v) for s, v in values.items()})
+    terms = [t for t in sp.Add.make_args(number) if t.free_symbols == {time}]
+    timed = sp.Add(*terms)
+    if not timed.has(sp.Piecewise, *STEPS, *SIGNS):
         return None
-    number = number.xreplace(
-        {s: sp.Float(values.get(s, 0.0)) for s in number.free_symbols - {time}}
-    )
-    function = sp.lambdify(time, number, "numpy", cse=True)
+    function = sp.lambdify(time, timed, "numpy", cse=True)
+
+    def rise(t: float, aside: float) -> float:
+        return abs(float(function(t * (1 + aside))) - float(function(t * (1 - aside))))
+
     with np.errstate(all="ignore"):
-        found = {
-            t: [float(function(t + side * ASIDE * t)) for side in (-1, 1)]
-            for t in sorted(_instants(number))
-        }
-    size = max((abs(value) for values in found.values() for value in values), default=0.0)
-    jumps = (t for t, (before, behind) in found.items() if abs(behind - before) > JUMP * size)
+        found = {t: tuple(rise(t, aside) for aside in ASIDE) for t in sorted(_instants(timed))}
+        size = max((abs(float(function(t * (1 + ASIDE[0])))) for t in found), default=0.0)
+    jumps = (t for t, (wide, near) in found.items() if near > max(STAYS * wide, JUMP * size))
     return next(jumps, None)
 
 
 def _instants(number: Any) -> Iterator[float]:
     """Times after zero at which conditions that are linear in time change."""
-    edges = [r.lhs - r.rhs for r in number.atoms(Relational)] + [
-        s.args[0] for s in number.atoms(sp.sign)
-    ]
-    floors = sorted(number.atoms(sp.floor), key=str)
-    lines = [f.args[0] - k for f in floors for k in range(1, PERIODS + 1)]
+    steps: dict[Any, Any] = {}
+    for step in number.atoms(*STEPS):
+        whole, *period = step.args
+        steps[step] = whole / period[0] if period else whole
+    edges = [r.lhs - r.rhs for r in number.atoms(Relational)]
+    edges += [s.args[0] for s in number.atoms(*SIGNS)]
+    lines = [whole - k for whole in steps.values() for k in range(1, PERIODS + 1)]
     for edge in edges:
-        inside = [f for f in floors if edge.has(f)]
+        inside = [s for s in steps if edge.has(s)]
         lines += [edge.xreplace(dict.fromkeys(inside, sp.Integer(k))) for k in range(PERIODS)]
     for line in lines:
         slope = line.diff(time)
-        if slope.is_number and slope != 0:
+        if slope.is_number and slope.is_real and slope != 0:
             t = float(-line.xreplace({time: sp.S.Zero}) / slope)
             if t > 0:
                 yield t

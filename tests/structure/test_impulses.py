@@ -7,7 +7,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import blocks, electrical, rotational
-from tests.support.parts import model
+from tests.support.parts import Equations, model
 
 JUMPS = [
     (blocks.Step(startTime=0.5), "0.5"),
@@ -20,6 +20,10 @@ SMOOTH = [
     blocks.Ramp(startTime=0.5, duration=2.0),
     blocks.Trapezoid(rising=0.1, width=0.2, falling=0.1, period=1.0),
     blocks.Step(startTime=-1.0),
+    blocks.Ramp(startTime=86400.0, duration=60.0),
+    blocks.Ramp(startTime=100.0, duration=0.05),
+    blocks.Trapezoid(startTime=1.0, rising=1e-3, width=0.2, falling=1e-3, period=1.0),
+    blocks.Sine(f=50.0, startTime=1000.0),
     blocks.TimeTable(table=[[0, 0], [1, 2]]),
 ]
 
@@ -58,3 +62,21 @@ def test_a_resistance_takes_the_jump() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         ac.compile(circuit)
+
+
+def test_what_depends_on_variables_is_left_out() -> None:
+    """A number in their place could make it undefined, or jump."""
+
+    def equations(s: Any) -> list[ac.Eq]:
+        late = ac.where(ac.time > 1, ac.time, 1)
+        return [
+            ac.Eq(ac.der(s.x), 1.0),
+            ac.Eq(s.y, late / s.x + ac.log(s.x)),
+            ac.Eq(s.v, ac.der(s.y)),
+        ]
+
+    component = Equations("x y v", equations)
+    component.modify(x=ac.Start(1.0, fixed=True))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ac.compile(component)

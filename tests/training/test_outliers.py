@@ -6,16 +6,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from acausal.training.auto.outliers import outliers
+from acausal.training.auto.outliers import at_limits, outliers
 
 N = 400
 T = np.linspace(0.0, 10.0, N)
 FIRST = 150
 
 
-def sentences(measured: np.ndarray, predicted: np.ndarray, weight: Any = 1.0) -> list[str]:
+def sentences(
+    measured: np.ndarray, predicted: np.ndarray, weight: Any = 1.0, noise: float = 0.01
+) -> list[str]:
     """About two records of one target."""
-    measured = measured + 0.01 * np.random.default_rng(0).normal(size=N)
+    measured = measured + noise * np.random.default_rng(0).normal(size=N)
     rows = [np.arange(FIRST), np.arange(FIRST, N)]
     records: Any = SimpleNamespace(
         count=2,
@@ -26,7 +28,7 @@ def sentences(measured: np.ndarray, predicted: np.ndarray, weight: Any = 1.0) ->
     )
     problem: Any = SimpleNamespace(records=records, targets=("mass.s",))
     simulated: Any = SimpleNamespace(y=predicted[:, None])
-    return list(outliers(problem, simulated))
+    return [*outliers(problem, simulated), *at_limits(problem, simulated)]
 
 
 def test_what_follows_its_record_has_none() -> None:
@@ -68,3 +70,10 @@ def test_a_sensor_at_its_limit_is_named(beyond: bool) -> None:
     assert len(found) == beyond
     for sentence in found:
         assert "samples of mass.s have its least value, -1.5, where predictions go" in sentence
+
+
+def test_rest_and_few_digits_are_no_limits() -> None:
+    late = np.where(T > 2.0, 1 - np.exp(2.0 - T), 0.0)
+    noise = np.where(late > 0, 0.01, 0.0) * np.random.default_rng(1).normal(size=N)
+    for measured in (late + noise, 0.05 * np.round(np.sin(T) / 0.05)):
+        assert not sentences(measured, 1.2 * late - 0.1, noise=0.0)

@@ -111,10 +111,12 @@ class Multistep(eqx.Module):
 
     Attributes:
         jacobian: the model's, by which the equations of a step are solved.
+        branches: whether its rates have case distinctions.
     """
 
     name: ClassVar[str] = "BDF"
     jacobian: StateJacobian = eqx.field(static=True)
+    branches: bool = eqx.field(static=True)
 
     def begin(self, problem: Integration, t: Array, x: State) -> tuple[MultistepMemory, Counts]:
         """What is known at the begin, or after a jump: one state."""
@@ -171,8 +173,9 @@ class Multistep(eqx.Module):
             lambda: (m.matrix, m.c),
         )
         scale, tolerances = 2 / (1 + c / made_for), problem.tolerances
+        patience = PATIENCE._replace(doubts=self.branches)
         newton = solve(
-            equation, self.jacobian, matrix, begin, tolerances, LEFT / constant, PATIENCE, scale
+            equation, self.jacobian, matrix, begin, tolerances, LEFT / constant, patience, scale
         )
         x, exact = lax.stop_gradient(newton.x), newton.x
         error = constant * problem.tolerances.size(x - predicted, x_before, x)
@@ -268,9 +271,7 @@ class Multistep(eqx.Module):
     ) -> MultistepMemory:
         """What is known where a step does not count: a matrix to renew, or a shorter length."""
         unsolved, q = ~newton.done, m.order
-        turned = (
-            unsolved & newton.turned & (m.turns < TURNS)
-        )  # go on from there with its derivatives
+        turned = unsolved & newton.turned & (m.turns < TURNS)
         kept = unsolved & (~renewed | turned)
         failures = m.failures + jnp.where(kept, 0, 1)
         factor = 1 / ((CAUTIOUS * error) ** (1 / (q + 1)) + 1e-6)
@@ -283,7 +284,7 @@ class Multistep(eqx.Module):
             wait=jnp.where(lowered, q + 1, m.wait),
             failures=failures,
             stale=unsolved,
-            guess=newton.x,
+            guess=lax.stop_gradient(newton.x),
             turns=jnp.where(turned, m.turns + 1, 0),
         )
 

@@ -45,7 +45,7 @@ def method_of(solver: solvers.Solver, problem: Integration) -> Method:
     """
     solver, jacobian = solvers.for_adaptive_steps(solver), problem.field.system.state_jacobian
     if isinstance(solver, solvers.BDF):
-        return Multistep(jacobian)
+        return Multistep(jacobian, problem.field.bends)
     if isinstance(solver, dfx.AbstractRungeKutta | dfx.ImplicitEuler):
         return _one_step(solver, tableau_of(solver), jacobian, problem.tolerances, ADAPTIVE)
     return Foreign(solver)

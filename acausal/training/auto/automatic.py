@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
@@ -98,7 +99,7 @@ class Automatic:
         step: of the integration; ``None`` where the user has said anything of it.
         linear: the linear start; ``None`` where no network lacks scales.
         not_laws: networks that are no laws of the library, which are trained from where they are.
-        misread: inputs that would explain the records with another sign or unit.
+        misread: finds inputs that would explain the records with another sign or unit; ``None`` where nobody asks.
         pieces: how many pieces the records were cut into, as the model is sensitive; 0 where they are whole.
     """
 
@@ -108,12 +109,16 @@ class Automatic:
     step: StepChoice | None
     linear: LinearStart | None
     not_laws: tuple[str, ...]
-    misread: tuple[Misread, ...] = ()
+    misread: Callable[[], Iterator[Misread]] | None
     pieces: int = 0
 
     def misread_beside(self, loss: float) -> list[str]:
-        """A sentence on each input that may have been misread, as a training ended with more loss."""
-        return [str(one) for one in self.misread if one.loss < loss]
+        """A sentence on each input that may have been misread, where a training ended with much loss."""
+        if self.misread is None or self.linear is None:
+            return []
+        if loss <= EXPLAINS * np.sqrt(len(self.linear.problem.targets)):
+            return []
+        return [str(one) for one in self.misread() if one.loss < loss]
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
         """The start of a training, with parameters and first states where the linear start found them."""
@@ -172,9 +177,9 @@ def automatic(
     )
     free = None if step.solver is None or options.dt is not None else step
     linear_start = start if shapes else None
-    misread: tuple[Misread, ...] = ()
-    if shapes and not begun.explains:
-        misread = tuple(_misread(problem_of(part, begun.step), shapes))
+    misread = (
+        partial(_misread, problem_of, part, begun.step, shapes) if is_nrmse and shapes else None
+    )
     return Automatic(step.of(options, records), scaled, stages, free, linear_start, fixed, misread)
 
 
@@ -232,8 +237,14 @@ def _begin(
     return begun
 
 
-def _misread(problem: Problem, shapes: dict[str, LawShape]) -> Iterator[Misread]:
-    """Inputs that may have been misread, where linear laws explain nothing."""
+def _misread(
+    problem_of: Callable[..., Problem],
+    part: dict[str, Data],
+    step: StepChoice,
+    shapes: dict[str, LawShape],
+) -> Iterator[Misread]:
+    """Inputs that may have been misread: with another sign or unit, linear laws explain the records."""
+    problem = problem_of(part, step)
     level = float(np.sqrt(len(problem.targets)))
     for name, own in [*gains(problem).items()][:LOOKED_AT]:
         for gain in GAINS:

@@ -25,9 +25,9 @@ JUMP, SMOOTH, NEAR = 0.5, 0.3, 3
 """A record jumps to outliers, or back, by this part of what they are off. Predictions jump by less than the second
 part, up to so many samples from there: where they do, an event came early or late."""
 
-STUCK, OVER = 0.01, 0.02
-"""A sensor is at its limit if more than this part of the samples are, and predictions go beyond by the second part of
-the target's deviation."""
+STUCK, OFTEN, OVER = 0.01, 10.0, 0.02
+"""A sensor is at its limit if more than this part of the samples are, so many times as many as have another value, and
+predictions go beyond by the third part of the target's deviation."""
 
 LEAVE = "leave them out (nan, missing='nan')"
 """What to do about wrong samples."""
@@ -56,15 +56,20 @@ class _Series(NamedTuple):
         return found
 
 
-def outliers(problem: Problem, simulated: Simulated) -> Iterator[str]:
-    """A sentence on each target of which a few samples make most of what is left, or that stays at a limit."""
+def _series(problem: Problem, simulated: Simulated) -> Iterator[tuple[str, list[_Series]]]:
+    """By target, what was measured in each record, and predicted."""
     records = problem.records
     rows = [records.rows_of(i) for i in range(records.count)]
     counts = np.asarray(records.weight) > 0
     t, measured, predicted = map(np.asarray, (records.steps.t, records.y, simulated.y))
     for k, name in enumerate(problem.targets):
         kept = [own[counts[own, k]] for own in rows]
-        series = [_Series(t[own], measured[own, k], predicted[own, k]) for own in kept]
+        yield name, [_Series(t[own], measured[own, k], predicted[own, k]) for own in kept]
+
+
+def outliers(problem: Problem, simulated: Simulated) -> Iterator[str]:
+    """A sentence on each target of which a few samples make most of what is left."""
+    for name, series in _series(problem, simulated):
         left = np.concatenate([one.measured - one.predicted for one in series])
         if not len(left) or not np.isfinite(left).all():
             continue
@@ -77,24 +82,28 @@ def outliers(problem: Problem, simulated: Simulated) -> Iterator[str]:
             yield (
                 f"{np.sum(outlying)} of {len(outlying)} samples of {name} lie far from the others (at {when}"
                 f"{', ...' * (len(at) > NEAR)} s) and make {percent(share)} of what is left: {LEAVE} if "
-                "they are wrong, or let them count less (loss='huber')."
+                "they are wrong, and not what the model lacks, or let them count less (loss='huber')."
             )
-        yield from _at_limits(name, *map(np.concatenate, zip(*series, strict=True)))
 
 
-def _at_limits(
-    name: str,
-    t: Float[np.ndarray, " N"],
-    measured: Float[np.ndarray, " N"],
-    predicted: Float[np.ndarray, " N"],
-) -> Iterator[str]:
-    """Where a target stays at its least or largest value, and predictions go beyond."""
-    for which, sign in (("largest", 1), ("least", -1)):
-        limit = sign * (sign * measured).max()
-        there = measured == limit
-        beyond = float(np.mean(sign * (predicted[there] - limit)))
-        if there.sum() > len(t) * STUCK and beyond > OVER * float(np.std(measured)):
-            yield (
-                f"{np.sum(there)} of {len(t)} samples of {name} have its {which} value, {limit:.4g}, where "
-                f"predictions go beyond: {LEAVE} if a sensor is at its limit there."
-            )
+def at_limits(problem: Problem, simulated: Simulated) -> Iterator[str]:
+    """A sentence on each target that stays at its least or largest value where predictions go beyond.
+
+    Not where a record begins so, at rest, nor where other values are as frequent, as of a sensor with few digits.
+    """
+    for name, series in _series(problem, simulated):
+        t, measured, predicted = map(np.concatenate, zip(*series, strict=True))
+        counts = np.unique(measured, return_counts=True)[1]
+        usual = float(np.median(counts)) if len(counts) else 0.0
+        begins = {float(one.measured[0]) for one in series if len(one.measured)}
+        for which, sign in (("largest", 1), ("least", -1)):
+            limit = sign * float((sign * measured).max(initial=-np.inf))
+            there = measured == limit
+            if limit in begins or there.sum() <= max(STUCK * len(t), OFTEN * usual):
+                continue
+            beyond = float(np.mean(sign * (predicted[there] - limit)))
+            if beyond > OVER * float(np.std(measured)):
+                yield (
+                    f"{np.sum(there)} of {len(t)} samples of {name} have its {which} value, {limit:.4g}, where "
+                    f"predictions go beyond: {LEAVE} if a sensor is at its limit there."
+                )

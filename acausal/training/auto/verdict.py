@@ -11,7 +11,7 @@ from acausal.errors import TrainingError, listing, percent
 from acausal.networks import OffsetCorrected
 from acausal.simulation import EXPLICIT
 from acausal.training.auto.likely_causes import likely_causes
-from acausal.training.auto.outliers import outliers
+from acausal.training.auto.outliers import at_limits, outliers
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
 from acausal.training.auto.step_choice import allowed_error, difference
 from acausal.training.objective.losses import LOSSES, noise_loss
@@ -89,7 +89,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     loose = list(_hardly_determined(fit)) if good else []
     good = good and not loose and (share <= SMALL or not left)
     suspect = list(outliers(problem, simulated))
-    others = [*suspect, *loose, *left]
+    others = [*suspect, *at_limits(problem, simulated), *loose, *left]
     if (
         not (down or share <= SMALL)
         and np.isfinite(fit.loss)

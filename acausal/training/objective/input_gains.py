@@ -10,6 +10,7 @@ import jax
 import numpy as np
 from jaxtyping import Array, Float
 
+from acausal.errors import percent
 from acausal.modeling import antiderivatives
 from acausal.training.objective.simulator import Simulator
 
@@ -37,8 +38,10 @@ def with_gain(simulator: S, gain: Float[Array, " n_inputs"]) -> S:
 
 def in_words(name: str, gain: float) -> str:
     """What an input would be that is so many times what its record says."""
-    if gain < 0:
+    if -2 < gain < -0.5:
         return f"{name} had the opposite sign"
+    if 0.5 < gain < 2:
+        return f"{name} were {percent(abs(gain - 1))} {'larger' if gain > 1 else 'smaller'}"
     return f"{name} were {float(f'{gain:.2g}'):g} times as large"
 
 

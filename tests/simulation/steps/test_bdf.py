@@ -219,3 +219,12 @@ def test_a_diode_that_blocks_hard_opens_in_time(solver: str) -> None:
     for rtol in (1e-6, 1e-7, 1e-8):
         found = ac.simulate(system, 0.1, saveat=ts, solver=solver, rtol=rtol)
         assert np.max(np.abs(found["v"] - exact.y[1])) < 1e3 * rtol
+
+
+@pytest.mark.parametrize(("rtol", "dtype"), [(1e-12, None), (1e-5, "float32")])
+def test_rounding_is_not_taken_for_another_branch(rtol: float, dtype: Any) -> None:
+    fast = Equations("x", lambda s: [ac.Eq(ac.der(s.x), 1e10 * (ac.cos(ac.time) - ac.Abs(s.x)))])
+    fast.modify(x=ac.Start(1.0, fixed=True))
+    run = ac.simulate(ac.compile(fast), 1.0, solver="bdf", rtol=rtol, dtype=dtype)
+    assert run.statistics is not None
+    assert int(run.statistics.rejected) < 50
