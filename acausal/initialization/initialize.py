@@ -316,7 +316,8 @@ class Initializer(LeavesCaches):
         found = self._satisfied(plan, start)
         if plan.least_squares or traced(found[1]):
             return found
-        rests = plan.moved == plan.resting and not plan.starts
+        alone = len(found[1]) == len(plan.resting) > 0  # no other conditions
+        rests = alone and plan.moved == plan.resting
         if rests and not _holds(*found[1:]):
             relaxed = start._replace(x=self._relaxed(plan, start))
             again = self._satisfied(plan, relaxed)

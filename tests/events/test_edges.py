@@ -190,6 +190,7 @@ def test_formulas(name):
     np.testing.assert_allclose(ts[~are_jumps], bends, rtol=1e-14)
 
 
+@pytest.mark.slow
 def test_pulses_of_sines_that_come_through_variables_are_seen():
     high, low = (Equations("x", over, "u", level=v) for v in (0.9999, -2.0004))
     sine = blocks.Sine(f=1.0, startTime=0.5)

@@ -67,6 +67,7 @@ class Whole(ac.Component):
             self.connect(source.y, sink.u)
 
 
+@pytest.mark.slow
 def test_what_jumps_elsewhere_is_an_event_with_derivatives() -> None:
     system = ac.compile(
         Whole(

@@ -88,6 +88,7 @@ def test_a_discrete_input_is_set_at_events(counter: Counter, kind: Any) -> None:
         assert 250 < len(run.events) < 350
 
 
+@pytest.mark.slow
 def test_gradients_through_discrete_inputs_are_refused(counter: Counter) -> None:
     def end(v: Any, **more: Any) -> Any:
         system = ac.compile(ac.FMU(counter(DISCRETE), {"u": 0.0}, **more))

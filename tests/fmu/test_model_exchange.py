@@ -252,6 +252,7 @@ def test_events_are_those_of_the_model(
     assert len(found.events) >= 2
 
 
+@pytest.mark.slow
 def test_a_gradient_through_what_an_fmu_samples_and_keeps_is_warned_of(tmp_path: Path) -> None:
     path = ac.export.fmu(ac.compile(Sampled()), tmp_path / "sampled.fmu", outputs=["x"])
     for options in ({}, {"open_loop": True}):
@@ -287,7 +288,8 @@ def test_gradients_go_through_events(exported: Exported) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(slow=1)
+@pytest.mark.slow
 @pytest.mark.parametrize("model", [Pulsed, Started])
 def test_gradients_move_events_whose_time_is_known(
     exported: Exported, model: type[ac.Component]

@@ -114,6 +114,7 @@ def test_states_that_are_large_by_nature(start):
     assert float(ac.simulate(ac.compile(component), (0, 1), dt=0.25).x[-1, 0]) >= 0.9e31
 
 
+@pytest.mark.slow
 def test_conditions_without_a_value_are_no_silent_result() -> None:
     """Two frictions that lock one shaft: how they share its torque is not determined, and neither ever slides."""
     made = model(

@@ -86,7 +86,8 @@ def test_edges_within_steps_divide_them_when_jax_compiles_and_maps(lag):
         assert [by_start[k], by_period[k]] == pytest.approx(slopes, rel=1e-4)
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(slow=1)
+@pytest.mark.slow
 @pytest.mark.parametrize("wrap", [lambda f: f, jax.jit], ids=["known", "compiled"])
 def test_edges_at_ends_of_steps_have_a_gradient(lag, wrap):
     def last(start):

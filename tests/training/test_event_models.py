@@ -173,7 +173,8 @@ def sampled_record(seed: int, n: int) -> ac.Data:
     return ac.Data(0.01 * np.arange(n + 1), {"r": r, "x": x}, interpolation={"r": "previous"})
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(slow=1)
+@pytest.mark.slow
 @pytest.mark.parametrize("period", [0.1, 0.01])
 def test_a_tick_at_a_jump_reads_what_is_behind_it_in_each_of_several_records(period: float) -> None:
     records = {"a": sampled_record(0, 400), "b": sampled_record(1, 300)}

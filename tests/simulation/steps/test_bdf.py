@@ -204,6 +204,7 @@ def _half_wave(s: Any) -> list[Any]:
     ]
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("solver", ["bdf", "auto"])
 def test_a_diode_that_blocks_hard_opens_in_time(solver: str) -> None:
     """With the derivatives of the blocking branch, 5e10 1/s, corrections are tiny on the other one, too."""

@@ -235,7 +235,7 @@ class _Late(ac.Component):
         yield ac.When(self.x > self.level, ac.Eq(self.begun, ac.time))
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize("at", [(0.2, 0.4), (0.23, 0.41)], ids=["on the grid", "within steps"])
 def test_an_edge_that_an_event_moves_has_a_gradient_where_fixed_steps_end(at: Any) -> None:
     with warnings.catch_warnings():

@@ -15,7 +15,7 @@ from tests.support.parts import Equations
 TS = np.linspace(0, 2, 5)
 
 
-@pytest.mark.cases(slow=2)
+@pytest.mark.cases(slow=1)
 @pytest.mark.slow
 @pytest.mark.parametrize("saved", [[2.0], np.linspace(0, 2, 41)], ids=["last", "many"])
 @pytest.mark.parametrize(
