@@ -340,7 +340,7 @@ class Initializer(LeavesCaches):
             if not np.isfinite(f).all() or (np.abs(f) < LEFT_OVER).all():
                 break
             with np.errstate(all="ignore"):
-                there = x + np.linalg.solve(np.eye(len(x)) / h - jacobian, f)
+                there = x + np.asarray(_smallest(jnp.eye(len(x)) / h - jacobian, jnp.asarray(f)))
             g, jacobian_there = self._rates(plan, start, start.x.at[free].set(there * nominal))
             if np.isfinite(g).all():
                 h *= float(np.clip(np.linalg.norm(f) / max(np.linalg.norm(g), TINY), *GROWTH))
