@@ -6,6 +6,7 @@ import ctypes as C
 import math
 import warnings
 from collections import OrderedDict
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -260,9 +261,10 @@ class Evaluated(Computed):
         self._looks += 1
         at, values = given[:width].copy(), np.zeros((2, part.n_values))
         at[2 : 2 + part.n] = first[1 + part.n_next :]
-        for row, found in zip(values, (first, there), strict=True):
-            at[1] = found[0]
-            self._evaluate(at.ctypes.data, row.ctypes.data)
+        with suppress(DiscardError):
+            for row, found in zip(values, (first, there), strict=True):
+                at[1] = found[0]
+                self._evaluate(at.ctypes.data, row.ctypes.data)
         one, other = values[:, : part.n]
         if (abs(one - other) > DIFFERS * STEP * np.maximum(abs(one), abs(other))).any():
             self._looks = LOOKS

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,9 @@ PERIODS = 3
 ASIDE, JUMP, STAYS = (1e-6, 1e-8), 1e-9, 0.5
 """Values are compared so far before and behind an instant, and differ by more than the second part of the largest. A
 jump is as large if the distance is shorter, to the third part; a steep ramp is not."""
+
+UNKNOWN = (TypeError, ValueError, ArithmeticError, NameError, AttributeError)
+"""What numbers outside of a function's domain, and functions that NumPy has not, end in."""
 
 
 def jump_of(expression: Any, values: Mapping[sp.Symbol, float]) -> float | None:
@@ -36,11 +40,13 @@ def jump_of(expression: Any, values: Mapping[sp.Symbol, float]) -> float | None:
     def rise(t: float, aside: float) -> float:
         return abs(float(function(t * (1 + aside))) - float(function(t * (1 - aside))))
 
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"), suppress(*UNKNOWN):
         found = {t: tuple(rise(t, aside) for aside in ASIDE) for t in sorted(_instants(timed))}
         size = max((abs(float(function(t * (1 + ASIDE[0])))) for t in found), default=0.0)
-    jumps = (t for t, (wide, near) in found.items() if near > max(STAYS * wide, JUMP * size))
-    return next(jumps, None)
+        for t, (wide, near) in found.items():
+            if near > max(STAYS * wide, JUMP * size):
+                return t
+    return None
 
 
 def _instants(number: Any) -> Iterator[float]:

@@ -4,9 +4,11 @@ import warnings
 from typing import Any
 
 import pytest
+import sympy as sp
 
 import acausal as ac
 from acausal.components import blocks, electrical, rotational
+from acausal.structure.impulses import jump_of
 from tests.support.parts import Equations, model
 
 JUMPS = [
@@ -80,3 +82,11 @@ def test_what_depends_on_variables_is_left_out() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         ac.compile(component)
+
+
+def test_numbers_outside_of_a_domain_are_no_jump() -> None:
+    t = ac.time
+    assert jump_of(ac.sqrt(ac.where(t > 1, t, -1)), {}) is None
+    assert jump_of(ac.where(t > 1, t, 1) + sp.Function("unknown")(t), {}) is None
+    assert jump_of(sp.ceiling(t / 2), {}) == 2.0
+    assert jump_of(sp.Mod(t, 3), {}) == 3.0
