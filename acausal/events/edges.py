@@ -302,14 +302,9 @@ class _Point:
     def add(self, part: _Part, one: Accumulate) -> None:
         """Compute a sum."""
         line, terms = self._line(one.values), read_elements(one.values, self.values)
-        if line is not None:  # waves, added up, are none
-            line = (
-                None
-                if line.wave
-                else merged(
-                    [line], lambda values: add_up(one, jnp.broadcast_to(values[0], terms.shape))
-                )
-            )
+        if line is not None and line.wave is not None:
+            line = None  # waves, added up, are none
+        line = merged([line], lambda values: add_up(one, jnp.broadcast_to(values[0], terms.shape)))
         self.fill(part, add_up(one, terms), line)
 
     def fill(self, part: _Part, value: Any, line: Line | None) -> None:

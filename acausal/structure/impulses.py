@@ -12,6 +12,7 @@ from sympy.core.relational import Relational
 
 from acausal.flattening import SIGNS, STEPS
 from acausal.modeling import literal, time
+from acausal.structure.jacobian import numeric_function
 
 PERIODS = 3
 """Of what repeats, so many periods are looked at."""
@@ -35,7 +36,7 @@ def jump_of(expression: Any, values: Mapping[sp.Symbol, float]) -> float | None:
     timed = sp.Add(*terms)
     if not timed.has(sp.Piecewise, *STEPS, *SIGNS):
         return None
-    function = sp.lambdify(time, timed, "numpy", cse=True)
+    function = numeric_function(timed, ())
 
     def rise(t: float, aside: float) -> float:
         return abs(float(function(t * (1 + aside))) - float(function(t * (1 - aside))))

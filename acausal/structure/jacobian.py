@@ -41,7 +41,7 @@ def partials(
     numbered = {
         s: sp.Symbol(f"_{i}", real=True) for i, (s, _) in enumerate(read)
     }  # alike: one function
-    function = _function(expression.xreplace(numbered), tuple(numbered.values()))
+    function = numeric_function(expression.xreplace(numbered), tuple(numbered.values()))
     with np.errstate(all="ignore"):
         result = np.broadcast_to(function(TIME, *(v for _, v in read)), (len(variables),))
     return np.where(np.isfinite(result), result, 1.0)
@@ -64,7 +64,7 @@ def parameter_values(model: FlatModel) -> np.ndarray:
         for (expression, symbols), members in groups.items():
             arguments = np.asarray([b.arguments for b in members]).reshape(len(members), -1)
             with np.errstate(all="ignore"):
-                computed = _function(expression, symbols)(TIME, *value[arguments].T)
+                computed = numeric_function(expression, symbols)(TIME, *value[arguments].T)
             value[[b.target for b in members]] = np.nan_to_num(computed)
     return value
 
@@ -75,7 +75,8 @@ def random_values(n: int) -> np.ndarray:
 
 
 @cache
-def _function(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> Callable[..., Any]:
+def numeric_function(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> Callable[..., Any]:
+    """An expression as a function of arrays: of time and its symbols; networks are some numbers."""
     calls = sorted(expression.atoms(ModuleCall), key=sp.default_sort_key)
     plain = expression.xreplace({c: sp.Float(0.6 + 0.1 * i) for i, c in enumerate(calls)})
     plain = plain.replace(Prescribed, lambda n, t, *signals: signals[int(n)])

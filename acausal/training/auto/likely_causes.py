@@ -26,6 +26,9 @@ from acausal.training.uncertainty.record_elimination import untaken
 LIKELY = 0.75
 """The residuals look like a cause if they follow it to this part."""
 
+FAR = float(np.log(5))
+"""A parameter that is off by a larger factor does not show by small changes."""
+
 MOST = 3
 """So many causes are named."""
 
@@ -46,7 +49,7 @@ class Cause:
 
     names: tuple[str, ...]
     effect: Float[np.ndarray, "N n_targets"]
-    far: float = float(np.log(5))
+    far: float = FAR
 
     def sentence(self, size: float) -> str:
         """What it is, by its size."""

@@ -19,7 +19,7 @@ USUAL = 1.4826
 """The standard deviation of normal numbers, in medians of their sizes."""
 
 FEW, MOST = 0.1, 0.5
-"""Wild samples are less than this part of all, and make more than this part of what is left."""
+"""Outliers are less than this part of all, and make more than this part of what is left."""
 
 JUMP, SMOOTH, NEAR = 0.5, 0.3, 3
 """A record jumps to outliers, or back, by this part of what they are off. Predictions jump by less than the second
