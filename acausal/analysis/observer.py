@@ -150,12 +150,18 @@ class Observer(ByName):
             The states and the estimated parameters at the latest time, by name.
 
         Raises:
-            DataError: for a time that is not later, and earlier than ``late`` allows, or for names and values that do
-                not fit.
+            DataError: for a time that is not later, and earlier than ``late`` allows, or later than a million times
+                ``sample_time``; for names and values that do not fit.
         """
         system = self.step_of_arrays.model.system
         check_time(t)
         is_late = self.t is not None and not t > self.t
+        longest = MOST * self.step_of_arrays.sample_time
+        if self.t is not None and t - self.t > longest:
+            raise DataError(
+                f"t={t:g} s: a pause of {t - self.t:g} s is more than {MOST} times sample_time; "
+                "make a new observer that starts there (states=)."
+            )
         if is_late and self._late and u is not None:
             raise DataError(f"t={t:g} s: inputs are known up to {self.t:g} s; leave u out.")
         now = u if isinstance(u, np.ndarray) else system.input_values(u)

@@ -10,52 +10,32 @@ from typing import Any, NoReturn
 import jax
 import jax.numpy as jnp
 import numpy as np
-import optimistix as optx
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import array, compiled, is_number, is_real, traced, without_derivatives
+from acausal._jax import array, compiled, is_number, is_real, traced
 from acausal.codegen import (
-    Dense,
     Packed,
     ParameterLayout,
     Program,
     Values,
     explain_nonfinite,
     read,
-    root,
 )
 from acausal.errors import DataError, InitializationError, listing, nearest, need_flag, shown
 from acausal.flattening import LeavesCaches
-from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
+from acausal.initialization.conditions import Conditions, initial_conditions
+from acausal.initialization.solve import (
+    LEFT_OVER,
+    InitializationProblem,
+    InitializationSolver,
+    InitialStates,
+)
 from acausal.modeling import ByName, by_element, by_name, names_in
 from acausal.structure import ReducedModel
 
-MAX_STEPS = 100
-RELAXING, SHORTER, GROWTH, TINY = 200, 4.0, (0.5, 10.0), 1e-300
-"""So many steps lead to rest; one that leads nowhere is made so much shorter, others grow between these factors."""
-
-LEFT_OVER = 1e-6
-"""How far off a condition may be, in nominal values."""
-ROUNDING = 1e-9
-"""A condition is met but for rounding if states move by less, in nominal values, to meet it."""
 INDEPENDENT = 1e-9
 """Derivatives below this fraction of the largest one count as zero."""
-
-
-@dataclass(frozen=True)
-class InitializationProblem:
-    """One initialization problem: which states may change, and which conditions they must meet.
-
-    Attributes:
-        moved: states that may differ from their starts. ``starts``: fixed starts that must be met.
-        resting: states that must be at rest. ``least_squares``: whether conditions are met in the least-squares sense.
-    """
-
-    moved: tuple[int, ...]
-    starts: tuple[FixedStart, ...]
-    resting: tuple[int, ...]
-    least_squares: bool
 
 
 @dataclass(frozen=True, repr=False)
@@ -138,7 +118,7 @@ class Initializer(LeavesCaches):
         if x0 is not None and not isinstance(x0, Mapping):
             return self.closed(Values(array(t0), self._whole(x0), u0, packed, d))
         at = Values(array(t0), self.conditions.starts(packed), u0, packed, d)
-        return self._solution(at, self.by_state(x0 or {}), steady, least_squares)[0]
+        return self._solution(at, self.by_state(x0 or {}), steady, least_squares)[1].x
 
     def solves(self, x0: Any, steady: bool | Sequence[str], least_squares: bool) -> bool:
         """Whether states follow from equations, and not from starts and ``x0`` alone."""
@@ -155,8 +135,9 @@ class Initializer(LeavesCaches):
     ) -> Float[Array, " n_states"]:
         """Initial states, or NaN where the conditions cannot all hold: for programs that raise no errors."""
         at = Values(array(t0), self.conditions.starts(packed), u0, packed)
-        x, _, rest, _ = self._solution(at, {})
-        return x if rest is None else jnp.where(jnp.all(jnp.abs(rest) < LEFT_OVER), x, jnp.nan)
+        plan, found = self._solution(at, {})
+        met = jnp.all(jnp.abs(found.residuals) < LEFT_OVER)
+        return found.x if plan is None else jnp.where(met, found.x, jnp.nan)
 
     def report(
         self,
@@ -171,18 +152,19 @@ class Initializer(LeavesCaches):
         """Initial states and how each was found; see `System.initialize`."""
         x0 = self.by_state(by_name(x0, "x0", "the states by name"))
         at = Values(array(t0), self.conditions.starts(packed), u0, packed, d)
-        x, plan, rest, jacobian = self._solution(at, x0, steady, least_squares)
+        plan, found = self._solution(at, x0, steady, least_squares)
         roles = [
             "given" if name in x0 else "fixed" if fixed else "start"
             for name, fixed in zip(self.names, self.conditions.fixed, strict=True)
         ]
         roles[self.reduced.n_independent :] = ["computed"] * len(self.reduced.guessed)
         if plan is None:
-            return Initialization(x, self.names, tuple(roles), (), np.zeros(0))
-        for i, role in zip(plan.moved, _roles(plan, np.asarray(jacobian)), strict=True):
+            return Initialization(found.x, self.names, tuple(roles), (), np.zeros(0))
+        for i, role in zip(plan.moved, _roles(plan, np.asarray(found.jacobian)), strict=True):
             roles[i] = role
         names = self.conditions.names(plan.starts, plan.resting)
-        return Initialization(x, self.names, tuple(roles), tuple(names), np.asarray(rest))
+        rest = np.asarray(found.residuals)
+        return Initialization(found.x, self.names, tuple(roles), tuple(names), rest)
 
     # -- the problem -------------------------------------------------------------------------------
 
@@ -192,13 +174,20 @@ class Initializer(LeavesCaches):
         given: Mapping[str, ArrayLike],
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
-    ) -> tuple[Array, InitializationProblem | None, Any, Any]:
-        """The states, and of the conditions to be met, if any, what is left and the Jacobian."""
+    ) -> tuple[InitializationProblem | None, InitialStates]:
+        """The problem, if there are conditions to be met, and the states."""
         x, plan = self._posed(at.x, given, steady, least_squares)
-        if plan is None:
-            return self.closed(at._replace(x=x)), None, None, None
-        x, rest, jacobian = self._found(plan, at._replace(x=x))
-        return self.closed(at._replace(x=x)), plan, rest, jacobian
+        found = InitialStates(x, jnp.zeros(0), jnp.zeros((0, 0)))
+        if plan is not None:
+            start = at._replace(x=x)
+            found = self._solver.find(plan, start)
+            if not (plan.least_squares or traced(found.residuals) or found.holds):
+                self._refuse(plan, start, found)
+        return plan, found._replace(x=self.closed(at._replace(x=found.x)))
+
+    @cached_property
+    def _solver(self) -> InitializationSolver:
+        return InitializationSolver(self.conditions)
 
     def _whole(self, x0: ArrayLike) -> Array:
         if not is_real(x0):
@@ -311,117 +300,19 @@ class Initializer(LeavesCaches):
 
         return closed
 
-    def _found(self, plan: InitializationProblem, start: Values) -> tuple[Array, Array, Array]:
-        """The states, the residuals of the conditions, and their Jacobian by the states that moved."""
-        found = self._satisfied(plan, start)
-        if plan.least_squares or traced(found[1]):
-            return found
-        alone = len(found[1]) == len(plan.resting) > 0  # no other conditions
-        rests = alone and plan.moved == plan.resting
-        if rests and not _holds(*found[1:]):
-            relaxed = start._replace(x=self._relaxed(plan, start))
-            again = self._satisfied(plan, relaxed)
-            found = again if _holds(*again[1:]) else found
-        if not _holds(*found[1:]):
-            self._refuse(plan, start._replace(x=found[0]), np.asarray(found[1]))
-        return found
-
-    def _relaxed(self, plan: InitializationProblem, start: Values) -> Array:
-        """States that all come to rest, each after a time of its own: linearly implicit steps that grow as they do so.
-
-        C. T. Kelley, D. E. Keyes: Convergence Analysis of Pseudo-Transient Continuation, SIAM Journal on Numerical
-        Analysis 35 (1998).
-        """
-        free = np.asarray(plan.moved, dtype=np.int64)
-        nominal = np.asarray(self.conditions.nominal)[free]
-        x, f, jacobian = np.asarray(start.x)[free] / nominal, *self._rates(plan, start, start.x)
-        h = 1 / max(float(np.max(np.abs(jacobian), initial=0.0)), np.finfo(float).tiny)
-        for _ in range(RELAXING):
-            if not np.isfinite(f).all() or (np.abs(f) < LEFT_OVER).all():
-                break
-            with np.errstate(all="ignore"):
-                there = x + np.asarray(_smallest(jnp.eye(len(x)) / h - jacobian, jnp.asarray(f)))
-            g, jacobian_there = self._rates(plan, start, start.x.at[free].set(there * nominal))
-            if np.isfinite(g).all():
-                h *= float(np.clip(np.linalg.norm(f) / max(np.linalg.norm(g), TINY), *GROWTH))
-                x, f, jacobian = there, g, jacobian_there
-            else:
-                h /= SHORTER
-        return start.x.at[free].set(x * nominal)
-
-    @cached_property
-    def _looked(self) -> Callable[[InitializationProblem, Values], tuple[Array, Array]]:
-        """The rates of resting states, in nominal values, and their Jacobian, compiled once for every plan."""
-
-        @compiled
-        def looked(plan: InitializationProblem, at: Values) -> tuple[Array, Array]:
-            free = np.asarray(plan.moved, dtype=np.int64)
-            nominal = self.conditions.nominal[free]
-
-            def rates(z: Array) -> Array:
-                moved = at._replace(x=at.x.at[free].set(z * nominal))
-                return self.conditions.residuals((), plan.resting, moved)
-
-            z = at.x[free] / nominal
-            return rates(z), jax.jacfwd(rates)(z)
-
-        return looked
-
-    def _rates(
-        self, plan: InitializationProblem, start: Values, x: Array
-    ) -> tuple[np.ndarray, np.ndarray]:
-        f, jacobian = self._looked(plan, start._replace(x=x))
-        return np.asarray(f), np.asarray(jacobian)
-
-    @cached_property
-    def _satisfied(self) -> Callable[[InitializationProblem, Values], tuple[Array, Array, Array]]:
-        """`_satisfy`, compiled once for every plan."""
-        return compiled(self._satisfy)
-
-    def _satisfy(self, plan: InitializationProblem, start: Values) -> tuple[Array, Array, Array]:
-        """States that satisfy the conditions, the residuals, and their Jacobian.
-
-        The solution is found without derivatives; one Newton step from there, which moves nothing, carries them.
-        """
-        free = np.asarray(plan.moved, dtype=np.int64)
-        nominal = self.conditions.nominal[free]
-
-        x = start.x
-
-        def residual(z: Array, at: Values) -> Array:
-            moved = at._replace(x=at.x.at[free].set(z * nominal))
-            return self.conditions.residuals(plan.starts, plan.resting, moved)
-
-        def stationary(z: Array, at: Values) -> Array:
-            half = lambda z: jnp.sum(residual(z, at) ** 2) / 2  # noqa: E731
-            return jax.grad(half)(z)
-
-        packed, frozen_x = without_derivatives((start.packed, x))
-        frozen = start._replace(x=frozen_x, packed=packed)
-        if not plan.moved:
-            rest = residual(jnp.zeros(0), frozen)
-            return x, rest, jnp.zeros((len(rest), 0))
-        z0 = x[free] / nominal
-        guess = jax.lax.stop_gradient(z0)
-        least = _least_squares if plan.least_squares else _least_change
-        z = jax.lax.stop_gradient(least(lambda z: residual(z, frozen), guess))
-        vanishing = stationary if plan.least_squares else residual
-        jacobian = jax.jacfwd(lambda z: vanishing(z, frozen))(z)
-        change = z0 - guess
-        z = z + change - _smallest(jacobian, vanishing(z, start) + jacobian @ change)
-        at = jax.lax.stop_gradient(z)
-        rest = residual(at, frozen)
-        return x.at[free].set(z * nominal), rest, jax.jacfwd(lambda z: residual(z, frozen))(at)
-
     # -- errors ------------------------------------------------------------------------------------
 
-    def _refuse(self, plan: InitializationProblem, found: Values, rest: np.ndarray) -> NoReturn:
-        wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
-        names = self.conditions.names(plan.starts, plan.resting)
+    def _refuse(self, plan: InitializationProblem, start: Values, found: InitialStates) -> NoReturn:
+        """Say which conditions are not met, and what stands in their way.
+
+        Raises:
+            InitializationError: always.
+        """
+        rest, names = np.asarray(found.residuals), self.conditions.names(plan.starts, plan.resting)
         if not np.isfinite(rest).all():
-            start = found._replace(x=self.conditions.starts(found.packed))
+            at = start._replace(x=self.conditions.starts(start.packed))
             program = self.conditions.program
-            reason = explain_nonfinite(program, start, self.reduced.name, program.all_nodes)
+            reason = explain_nonfinite(program, at, self.reduced.name, program.all_nodes)
             without = listing([names[i] for i in np.flatnonzero(~np.isfinite(rest))])
             raise InitializationError(
                 "no initial values were found: the model's equations have no finite values at its starts. "
@@ -430,15 +321,24 @@ class Initializer(LeavesCaches):
                     or f"Without one: {without}. Give start values nearer to the solution (ac.Start)."
                 )
             )
-        off = [f"{names[i]} by {abs(rest[i]):.3g}" for i in wrong]
+        wrong = np.flatnonzero(np.abs(rest) >= LEFT_OVER)
+        off = listing([f"{names[i]} by {abs(rest[i]):.3g}" for i in wrong])
+        held = self._held(plan, start._replace(x=found.x), wrong)
+        if plan.rests_alone and not held:
+            raise InitializationError(
+                f"no rest was found near the start; where the search ended: {off}. Does the model come to rest at "
+                "all? Give starts nearer to it (x0={...}), let only some states rest (steady=[...]), or simulate "
+                "until nothing changes."
+            )
         moved = [self.names[i] for i in plan.moved]
-        held = self._held(plan, found, wrong)
+        many, few = _counted(len(rest), "condition"), _counted(len(moved), "free state")
         parts = [
-            f"the initial conditions cannot all hold; not met: {listing(off)}",
-            f"{len(rest)} conditions, but only {len(moved)} free states"
-            + (f" ({listing(moved, 6)})" if moved else ""),
-            *([f"{listing(held, 6)} cannot move, being fixed or given"] if held else []),
+            f"the initial conditions cannot all hold; not met: {off}",
+            f"{many}, but only {few}" + (f" ({listing(moved, 6)})" if moved else ""),
+            f"{listing(held, 6)} cannot move, being fixed or given",
         ]
+        if not held:
+            parts[1:] = [] if len(rest) <= len(moved) else parts[1:2]
         fixed = [n for i, n in enumerate(self.names) if n in held and self.conditions.fixed[i]]
         remedy = (
             f"The model does not rest at the fixed {listing(fixed, 6)}: make such starts guesses (fixed=False), or "
@@ -460,14 +360,8 @@ class Initializer(LeavesCaches):
         return [n for i, n in enumerate(self.names) if hit[i] and i not in plan.moved]
 
 
-def _holds(rest: ArrayLike, jacobian: ArrayLike) -> bool:
-    """Whether conditions are met, by what is left of them: little, or what rounding makes of fast rates."""
-    left, by = np.asarray(rest), np.asarray(jacobian)
-    if (np.abs(left) < LEFT_OVER).all() or not (np.isfinite(left).all() and by.size):
-        return bool((np.abs(left) < LEFT_OVER).all())
-    change = np.asarray(_smallest(jnp.asarray(by), jnp.asarray(left)))
-    met = np.abs(left - by @ change) < LEFT_OVER
-    return bool(met.all() and (np.abs(change) < ROUNDING).all())
+def _counted(n: int, what: str) -> str:
+    return f"{n} {what}" if n == 1 else f"{n} {what}s"
 
 
 def _roles(plan: InitializationProblem, jacobian: np.ndarray) -> list[str]:
@@ -482,24 +376,6 @@ def _roles(plan: InitializationProblem, jacobian: np.ndarray) -> list[str]:
         "start" if not hit else "chosen" if undetermined else "computed"
         for hit, undetermined in zip(touched, is_open, strict=True)
     ]
-
-
-def _least_change(residual: Callable[[Array], Array], guess: Array) -> Array:
-    """Newton's method with the smallest steps: a root near the guess even if there are many."""
-    return root(Dense(lambda x: (x, residual(x)), _smallest), guess, max_steps=MAX_STEPS)[0]
-
-
-def _smallest(jacobian: Float[Array, "k m"], r: Float[Array, " k"]) -> Float[Array, " m"]:
-    """The smallest step that satisfies the linear equations, with equal weight for each equation."""
-    size = jnp.max(jnp.abs(jacobian), axis=1, initial=0.0)
-    weight = 1 / jnp.where(size > 0, size, 1.0)
-    return jnp.linalg.pinv(weight[:, None] * jacobian) @ (weight * r)
-
-
-def _least_squares(residual: Callable[[Array], Array], guess: Array) -> Array:
-    solver = optx.LevenbergMarquardt(rtol=1e-10, atol=1e-12)
-    found = optx.least_squares(lambda z, _: residual(z), solver, guess, max_steps=1000, throw=False)
-    return found.value
 
 
 def initializer(

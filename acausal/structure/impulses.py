@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -31,7 +32,14 @@ def jump_of(expression: Any, values: Mapping[sp.Symbol, float]) -> float | None:
     Arguments:
         values: the numbers of parameters. What depends on other symbols is left out.
     """
-    number = literal(expression).xreplace({s: sp.Float(v) for s, v in values.items()})
+    known = ((s, float(values[s])) for s in expression.free_symbols if s in values)
+    return _jump(expression, tuple(sorted(known, key=str)))
+
+
+@lru_cache(maxsize=4096)
+def _jump(expression: Any, values: tuple[tuple[sp.Symbol, float], ...]) -> float | None:
+    """What `jump_of` finds, once for each expression and its numbers."""
+    number = literal(expression).xreplace({s: sp.Float(v) for s, v in values})
     terms = [t for t in sp.Add.make_args(number) if t.free_symbols == {time}]
     timed = sp.Add(*terms)
     if not timed.has(sp.Piecewise, *STEPS, *SIGNS):

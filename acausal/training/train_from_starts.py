@@ -95,7 +95,7 @@ def run(
         )
         limited = one.interrupted or options.epochs is not None
         whole = options.automatic and options.sample_weights is None and not limited
-        misread = () if from_data is None else from_data.misread_beside(one.best.loss)
+        misread = () if from_data is None else from_data.concerns(one.best.loss)
         for sentence in (*concerns(own, start, one, whole=whole), *misread):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
     described = options.described()

@@ -142,6 +142,8 @@ def test_an_observer_steps_as_the_estimate_does():
         ac.DataError, match=r"'mass.v' is not a sensor; the observer has mass.s, mass.a"
     ):
         seen.step(100.0, y={"mass.v": 0.0})
+    with pytest.raises(ac.DataError, match="is more than 1000000 times sample_time; make a new"):
+        seen.step(1e9)
 
 
 def test_late_measurements_count_as_if_they_had_come_in_time():

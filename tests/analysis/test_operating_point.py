@@ -151,3 +151,19 @@ def test_a_transistor_comes_to_rest_where_newton_alone_does_not_find_it() -> Non
     point, run = ac.operating_point(system), ac.simulate(system, 1e-3)
     assert point["T.C.v"] == pytest.approx(float(run["T.C.v"][-1]), abs=1e-5)
     assert point["T.B.v"] == pytest.approx(1.93375, abs=1e-5)
+
+
+class Integrating(ac.Component):
+    """A store without an outlet."""
+
+    u = ac.Input()
+    x = ac.Variable()
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u)
+
+
+def test_a_model_without_rest_is_told_so() -> None:
+    told = r"no rest was found near the start; where the search ended: 'der\(x\) = 0 by 2'\. Does"
+    with pytest.raises(ac.InitializationError, match=told):
+        ac.operating_point(ac.compile(Integrating()), inputs={"u": 2.0})

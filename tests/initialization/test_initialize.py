@@ -425,7 +425,7 @@ def test_least_squares_meets_conditions_as_well_as_can_be():
 def test_a_conflict_names_what_cannot_move():
     with pytest.raises(ac.InitializationError) as error:
         start(hanging({"s": Start(0.5, fixed=True)}, {"s_rel": Start(0.0, fixed=True)}))
-    assert "1 conditions, but only 1 free states ('m.v'); 'm.s' cannot move" in str(error.value)
+    assert "1 condition, but only 1 free state ('m.v'); 'm.s' cannot move" in str(error.value)
 
 
 # -- parameters found at the initial time ---------------------------------------------------------------------------

@@ -99,7 +99,7 @@ class Automatic:
         step: of the integration; ``None`` where the user has said anything of it.
         linear: the linear start; ``None`` where no network lacks scales.
         not_laws: networks that are no laws of the library, which are trained from where they are.
-        misread: finds inputs that would explain the records with another sign or unit; ``None`` where nobody asks.
+        find_misread: finds inputs that would explain the records with another sign or unit; ``None`` where nobody asks.
         pieces: how many pieces the records were cut into, as the model is sensitive; 0 where they are whole.
     """
 
@@ -109,16 +109,16 @@ class Automatic:
     step: StepChoice | None
     linear: LinearStart | None
     not_laws: tuple[str, ...]
-    misread: Callable[[], Iterator[Misread]] | None
+    find_misread: Callable[[], Iterator[Misread]] | None
     pieces: int = 0
 
-    def misread_beside(self, loss: float) -> list[str]:
+    def concerns(self, loss: float) -> list[str]:
         """A sentence on each input that may have been misread, where a training ended with much loss."""
-        if self.misread is None or self.linear is None:
+        if self.find_misread is None or self.linear is None:
             return []
         if loss <= EXPLAINS * np.sqrt(len(self.linear.problem.targets)):
             return []
-        return [str(one) for one in self.misread() if one.loss < loss]
+        return [str(one) for one in self.find_misread() if one.loss < loss]
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
         """The start of a training, with parameters and first states where the linear start found them."""
@@ -178,7 +178,9 @@ def automatic(
     free = None if step.solver is None or options.dt is not None else step
     linear_start = start if shapes else None
     misread = (
-        partial(_misread, problem_of, part, begun.step, shapes) if is_nrmse and shapes else None
+        partial(_find_misread, problem_of, part, begun.step, shapes)
+        if is_nrmse and shapes
+        else None
     )
     return Automatic(step.of(options, records), scaled, stages, free, linear_start, fixed, misread)
 
@@ -237,7 +239,7 @@ def _begin(
     return begun
 
 
-def _misread(
+def _find_misread(
     problem_of: Callable[..., Problem],
     part: dict[str, Data],
     step: StepChoice,
