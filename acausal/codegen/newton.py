@@ -245,7 +245,7 @@ def _newton(
 
         def too_far(trial: tuple[Array, Array, Array]) -> Array:
             dz, part, new = trial
-            return ~(new < size) & ~is_small(dz, part) & jnp.all(jnp.isfinite(dz))
+            return ~(new < size) & ~is_small(dz, part) & jnp.all(jnp.isfinite(z - dz))
 
         def halve(trial: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
             dz, part, _ = trial
@@ -260,7 +260,7 @@ def _newton(
         is_sure = _share(changes, values, 1.0) < UNSURE[z.dtype.name]
         stalls = (stopped | on_stair) & is_sure & _is_tiny(full, z, STALLED)
         arrived = there | stalls
-        stuck = stopped | ~jnp.all(jnp.isfinite(full))
+        stuck = stopped | ~jnp.all(jnp.isfinite(z - full))
         status = jnp.where(arrived, ARRIVED, jnp.where(stuck, STUCK, GOING))
         return z - jnp.where(there, full, dz), status, k + 1, length
 

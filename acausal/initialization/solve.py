@@ -148,7 +148,7 @@ class InitializationSolver(LeavesCaches):
             with np.errstate(all="ignore"):
                 there = x + np.asarray(_smallest(jnp.eye(len(x)) / h - jacobian, jnp.asarray(f)))
             g, jacobian_there = rates(there)
-            if np.isfinite(g).all():
+            if np.isfinite(there).all() and np.isfinite(g).all():
                 h *= float(np.clip(np.linalg.norm(f) / max(np.linalg.norm(g), TINY), *GROWTH))
                 x, f, jacobian = there, g, jacobian_there
             else:

@@ -114,3 +114,12 @@ def test_an_amplified_jump_is_no_root():
         return v, v + 5 * jnp.sign(v)
 
     assert np.isnan(solve_block(block, jnp.array([0.0]))).all()
+
+
+def test_a_guess_that_is_no_number_ends_the_search():
+    """The steps of this linear equation are finite all the same, and halving them would lead nowhere."""
+    solve = lambda jacobian, r: jnp.ones(jacobian.shape[1])  # noqa: E731
+    dense = newton.Dense(lambda z: (z, z - 1.0), solve)
+    for guess in (jnp.nan, jnp.inf):
+        _, reached = jax.jit(lambda z: newton.root(dense, z))(jnp.array([guess]))
+        assert not reached
