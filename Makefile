@@ -18,6 +18,7 @@ LOCK_ARGS ?=
 
 RECENT := import sys; sys.exit(sys.version_info < (3, 11))
 export NO_MKDOCS_2_WARNING := 1
+unexport PYTHONDONTWRITEBYTECODE # each process would compile the sources and rewrite the tests anew, for ten seconds
 
 UV := $(shell command -v uv 2>/dev/null)
 

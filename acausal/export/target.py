@@ -17,7 +17,7 @@ from acausal._jax import need_known
 from acausal.analysis import Observer, ObserverMemory
 from acausal.errors import DataError, known_name, need_compiled, shown
 from acausal.export.needs import all_parameters, need_exportable
-from acausal.modeling import Component, ModuleCall, Reference, full_name, names_in
+from acausal.modeling import Component, ModuleCall, Reference, each, full_name, names_in
 from acausal.networks import EnergyLaw, law_of
 from acausal.system import System
 
@@ -359,7 +359,7 @@ def _called_with(
         units[full] = expression.declaration.unit
         return full
 
-    for equation in layout.components[layout.number[owner]].equations():
+    for equation in each(layout.components[layout.number[owner]].equations()):
         for left, right in (_sides(equation), _sides(equation)[::-1]):
             for call in _calls(right, name):
                 arguments = call.args[2:]

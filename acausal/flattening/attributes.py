@@ -14,7 +14,7 @@ from acausal.errors import DeclarationError, shown
 from acausal.flattening.bindings import Binding, bind, is_bound, shifted
 from acausal.flattening.layout import Flags, Form, Layout, Numbers, tiled
 from acausal.flattening.template import Integers
-from acausal.modeling import STATE_SELECT, TEAR_SELECT, Component, Start, Variable
+from acausal.modeling import STATE_SELECT, TEAR_SELECT, Component, Start, Variable, in_tuples
 
 T = TypeVar("T", bound=np.generic)
 
@@ -160,7 +160,7 @@ def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
             raise DeclarationError(
                 f"{where}: {attribute}='{value:.60}' names nothing in the component"
             )
-        value = getattr(component, value)
+        value = in_tuples(getattr(component, value))
     kinds: dict[str, tuple[type[Any], ...]] = {
         "start": (int, float, np.number, sp.Expr, tuple),
         "nominal": (int, float, np.number),

@@ -8,10 +8,8 @@ from inspect import isgenerator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from acausal.errors import DeclarationError
-from acausal.modeling import Component, Eq, InitialParameter, charge, der
+from acausal.modeling import Component, Eq, InitialParameter, charge, der, each
 
 
 def equations_of(component: Component) -> Iterable[Any]:
@@ -20,8 +18,7 @@ def equations_of(component: Component) -> Iterable[Any]:
     yield from component._node.bindings
     for name, declared in component._node.declarations():
         if isinstance(declared, InitialParameter):
-            elements = np.asarray(getattr(component, name), dtype=object)
-            yield from (Eq(der(one), 0) for one in elements.flat)
+            yield Eq(der(getattr(component, name)), 0)
 
 
 def read_statements(
@@ -35,7 +32,7 @@ def read_statements(
     found: list[Any] = []
     try:
         stated = iter(equations())
-        for equation in stated:
+        for equation in each(stated):
             charge("equations", instances, component._node)
             known = not isinstance(equation, Eq) or equation.place
             found.append(equation if known else equation.stated_in(_yielded_at(stated)))

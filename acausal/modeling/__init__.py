@@ -37,6 +37,7 @@ from acausal.modeling.declarations import (
     Variable as Variable,
     element_name as element_name,
     element_names as element_names,
+    in_tuples as in_tuples,
 )
 from acausal.modeling.documentation import (
     declarations_of as declarations_of,
@@ -47,6 +48,7 @@ from acausal.modeling.documentation import (
 from acausal.modeling.endpoints import (
     Endpoint as Endpoint,
     endpoint_label as endpoint_label,
+    is_vector as is_vector,
     owner_and_name as owner_and_name,
 )
 from acausal.modeling.events import (
@@ -113,6 +115,7 @@ from acausal.modeling.symbols import (
     ModuleReference as ModuleReference,
     Reference as Reference,
     der as der,
+    each as each,
     primes as primes,
     references as references,
     time as time,

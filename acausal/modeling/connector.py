@@ -18,7 +18,7 @@ from acausal.modeling.declarations import (
 )
 from acausal.modeling.documentation import DocumentationOf
 from acausal.modeling.names import full_name
-from acausal.modeling.symbols import Eq, Owner, elements
+from acausal.modeling.symbols import Eq, Owner, refer
 
 
 class Connector:
@@ -102,7 +102,7 @@ class Connector:
         if name not in self._references:
             shape = cast(tuple[int, ...] | None, declaration.shape)
             path = f"{self._name}.{name}"
-            self._references[name] = elements(self._owner, path, declaration, shape)
+            self._references[name] = refer(self._owner, path, declaration, shape)
         return self._references[name]
 
     @classmethod

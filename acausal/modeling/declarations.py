@@ -156,7 +156,7 @@ class Variable(Declaration):
         if not isinstance(tear, str) or tear not in TEAR_SELECT:
             raise DeclarationError(f"tear={shown(tear)} must be one of {', '.join(TEAR_SELECT)}")
         need_text(state, f"{type(self).__name__}: state", DeclarationError)
-        self.start, self.fixed, self.nominal, self.state = _in_tuples(start), fixed, nominal, state
+        self.start, self.fixed, self.nominal, self.state = in_tuples(start), fixed, nominal, state
         self.tear = tear
 
 
@@ -259,10 +259,10 @@ class Input(Variable):
         return self.kind != "real" if self.held is None else self.held
 
 
-def _in_tuples(value: Any) -> Any:
+def in_tuples(value: Any) -> Any:
     """Values of an array's elements as tuples; what else there is as it is."""
     value = value.tolist() if getattr(value, "ndim", 0) else value
-    return tuple(map(_in_tuples, value)) if isinstance(value, list | tuple) else value
+    return tuple(map(in_tuples, value)) if isinstance(value, list | tuple) else value
 
 
 def is_number(value: Any) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from acausal.errors import ConnectionError
+from acausal.modeling.arrays import is_array
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import Input, Output
 from acausal.modeling.names import full_name
@@ -50,8 +51,10 @@ def check_pair(a: Any, b: Any) -> None:
 
 
 def is_vector(end: Any) -> bool:
-    """Whether this is a list of ends."""
-    return not isinstance(end, Connector | Reference | str) and isinstance(end, Sequence)
+    """Whether this is a list or an array of ends."""
+    return is_array(end) or (
+        not isinstance(end, Connector | Reference | str) and isinstance(end, Sequence)
+    )
 
 
 def check_lengths(a: Any, b: Any) -> None:
@@ -75,10 +78,10 @@ def check_lengths(a: Any, b: Any) -> None:
 
 def _vector_label(vector: Sequence[Any]) -> str:
     """The name of a vector: that of its elements without their index."""
-    if not vector:
+    if not len(vector):
         return "an empty vector"
     first: Any = vector[0]
-    while is_vector(first) and first:
+    while is_vector(first) and len(first):
         first = first[0]
     label = endpoint_label(first)
     return label.rpartition("[")[0] if label.endswith("]") else f"[{label}, ...]"

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import sympy as sp
 from sympy.logic.boolalg import Boolean, BooleanAtom, BooleanFunction
 
 from acausal.errors import DeclarationError, shown
+from acausal.modeling.arrays import elementwise, is_array, pairs
 from acausal.modeling.declarations import DependentParameter, Discrete, InitialParameter, Variable
 from acausal.modeling.functions import Floored, floor
 from acausal.modeling.symbols import (
@@ -21,6 +23,7 @@ from acausal.modeling.symbols import (
     Eq,
     RealFunction,
     Reference,
+    each,
     number_or_expression,
     time,
 )
@@ -136,12 +139,14 @@ def where(condition_: Any, value: Any, otherwise: Any, *, events: bool | None = 
 
     Arguments:
         condition_: a comparison, or ``&``, ``|``, ``~`` of some; a variable counts as true above 1/2.
-        value, otherwise: expressions or numbers.
+        value, otherwise: expressions or numbers. Of arrays it is taken element by element.
         events: whether steps end where the condition changes. With False it is evaluated as it stands at every
             point, and a parameter that acts through the condition alone has no gradient, unless it is a comparison of
             time; but a jump that a discrete variable or a condition of an event of the same component follows is an
             event in any case. None: in models that have other events.
     """
+    if any(map(is_array, (condition_, value, otherwise))):
+        return elementwise(partial(where, events=events), condition_, value, otherwise)
     holds = condition(condition_, "the condition of where(...)")
     first, second = number_or_truth(value), number_or_truth(otherwise)
     if events is False or isinstance(holds, BooleanAtom):
@@ -182,12 +187,14 @@ def number_or_truth(value: Any) -> sp.Expr:
     return number_or_expression(value, "a value of where(...)")
 
 
-def pre(variable: Any) -> Previous:
+def pre(variable: Any) -> Any:
     """The value of a variable just before an event; between events its value.
 
     Raises:
         DeclarationError: for what is not a variable.
     """
+    if is_array(variable):
+        return elementwise(pre, variable)
     if not isinstance(variable, Reference):
         raise DeclarationError(f"pre({shown(variable)}): the value before an event is a variable's")
     return Previous(variable)
@@ -195,12 +202,16 @@ def pre(variable: Any) -> Previous:
 
 def edge(variable: Any) -> Any:
     """Whether a variable that is 1 or 0 has just become 1."""
+    if is_array(variable):
+        return elementwise(edge, variable)
     before = pre(variable)  # refuses what is not a variable
     return sp.And(sp.Gt(variable, HALF), sp.Le(before, HALF))
 
 
 def change(variable: Any) -> Any:
     """Whether a discrete variable, or a signal of whole numbers or truth values, has just changed."""
+    if is_array(variable):
+        return elementwise(change, variable)
     before = pre(variable)
     if variable._is_whole():  # so that it can be watched, too: a signal may change between events
         return sp.Ge(sp.Abs(variable - before), HALF)
@@ -238,7 +249,7 @@ def sample(start: Any, period: Any) -> Tick:
 
 @dataclass(frozen=True)
 class Reinit:
-    """A state that jumps to a value.
+    """A state that jumps to a value; of arrays a tuple of these.
 
     Attributes:
         state: the variable. value: an expression.
@@ -246,6 +257,12 @@ class Reinit:
 
     state: Reference
     value: sp.Expr
+
+    def __new__(cls, state: Any = None, value: Any = None) -> Any:  # pyright: ignore[reportInconsistentConstructor]
+        """One jump, or several."""
+        if is_array(state) or is_array(value):
+            return tuple(cls(*both) for both in pairs(state, value, "Reinit(...)"))
+        return super().__new__(cls)
 
     def __init__(self, state: Any, value: Any) -> None:
         if not isinstance(state, Reference):
@@ -271,7 +288,8 @@ class When:
     def __init__(self, condition_: Any, *statements: Any, otherwise: When | None = None) -> None:
         given = condition_ if isinstance(condition_, list | tuple) else (condition_,)
         self.conditions = tuple(condition(c, "a condition of When(...)") for c in given)
-        for statement in statements:
+        single = tuple(each(statements))
+        for statement in single:
             if not isinstance(statement, Eq | Reinit):
                 raise DeclarationError(
                     f"When(...) contains {shown(statement)}; give ac.Eq(discrete variable, value) or "
@@ -279,7 +297,7 @@ class When:
                 )
         if not (otherwise is None or isinstance(otherwise, When)):
             raise DeclarationError(f"otherwise={shown(otherwise)} is not a When(...)")
-        self.statements: tuple[Eq | Reinit, ...] = statements
+        self.statements: tuple[Eq | Reinit, ...] = single
         self.otherwise = otherwise
 
     def chain(self) -> Iterator[When]:

@@ -8,16 +8,20 @@ from typing import Any
 
 import sympy as sp
 
+from acausal.modeling.arrays import elementwise, is_array
 from acausal.modeling.symbols import ModuleCall, RealFunction, number_or_expression, time
 
 
 def _of_expressions(function: Callable[..., Any]) -> Callable[..., Any]:
     """The same function of numbers and expressions alone: sympy would read a text as an expression, and run it."""
 
-    @wraps(function, assigned=("__name__", "__qualname__", "__doc__"), updated=())
-    def checked(*arguments: Any) -> Any:
+    def of_numbers(*arguments: Any) -> Any:
         where = f"an argument of {checked.__name__}(...)"
         return function(*(number_or_expression(a, where) for a in arguments))
+
+    @wraps(function, assigned=("__name__", "__qualname__", "__doc__"), updated=())
+    def checked(*arguments: Any) -> Any:
+        return elementwise(of_numbers, *arguments)
 
     return checked
 
@@ -55,7 +59,9 @@ class Abs(sp.Abs):
     """The absolute value of a real number (sympy's own expects complex ones, as in ``Abs(log(x))``)."""
 
     def __new__(cls, argument: Any, **options: Any) -> Any:
-        """Of an expression or a number; sympy would read a text."""
+        """Of an expression, a number or an array; sympy would read a text."""
+        if is_array(argument):
+            return elementwise(cls, argument)
         return super().__new__(
             cls, number_or_expression(argument, "what Abs(...) takes"), **options
         )
@@ -69,7 +75,9 @@ class sign(sp.sign):  # noqa: N801 (a mathematician's name)
     """-1, 0 or 1; piecewise constant, so its derivative counts as zero."""
 
     def __new__(cls, argument: Any, **options: Any) -> Any:
-        """Of an expression or a number; sympy would read a text."""
+        """Of an expression, a number or an array; sympy would read a text."""
+        if is_array(argument):
+            return elementwise(cls, argument)
         return super().__new__(
             cls, number_or_expression(argument, "what sign(...) takes"), **options
         )
@@ -138,7 +146,9 @@ class floor(sp.floor):  # noqa: N801 (a mathematician's name)
     """
 
     def __new__(cls, arg: Any, *, events: bool | None = False, **options: Any) -> Any:
-        """The integer; a `Floored` if its jumps are events."""
+        """The integer; a `Floored` if its jumps are events; of an array element by element."""
+        if is_array(arg):
+            return elementwise(lambda one: cls(one, events=events), arg)
         number = number_or_expression(arg, "the argument of floor(...)")
         if events is False or number.is_number:
             return super().__new__(cls, number, **options)

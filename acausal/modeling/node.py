@@ -18,7 +18,7 @@ from acausal.modeling.budget import Budget, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import Declaration, Module, Option, Parameter
 from acausal.modeling.icon import Placement
-from acausal.modeling.symbols import Eq, ModuleReference, Owner, Reference, elements
+from acausal.modeling.symbols import Eq, ModuleReference, Owner, Reference, refer
 
 Endpoint = Connector | Reference
 """One end of a connection: a connector, or a causal signal."""
@@ -149,7 +149,7 @@ class Node(Generic[C]):
         elif isinstance(declared, Module):
             value = ModuleReference(Reference(self, name, declared))
         else:
-            value = elements(self, name, declared, self.shape(name, declared))
+            value = refer(self, name, declared, self.shape(name, declared))
         vars(self.component)[name] = value
         return value
 

@@ -19,6 +19,7 @@ import sympy as sp
 from sympy.logic.boolalg import Boolean
 
 from acausal.errors import DeclarationError, shown
+from acausal.modeling.arrays import elements, elementwise, is_array, pairs
 from acausal.modeling.declarations import Declaration, Variable, element_names
 from acausal.modeling.written import as_written
 
@@ -205,7 +206,9 @@ class der(RealFunction):  # noqa: N801 (Modelica's name)
     nargs = 1
 
     def __new__(cls, argument: Any, **options: Any) -> Any:
-        """Of an expression or a number; sympy would read a text."""
+        """Of an expression, a number or an array; sympy would read a text."""
+        if is_array(argument):
+            return elementwise(cls, argument)
         return super().__new__(
             cls, number_or_expression(argument, "what der(...) differentiates"), **options
         )
@@ -280,17 +283,29 @@ class ModuleReference:
 
     def __call__(self, *args: Any) -> Any:
         """The module applied to expressions."""
+        return elementwise(self._applied, *args)
+
+    def _applied(self, *args: Any) -> Any:
         expressions = [number_or_expression(a, f"an argument of {self.symbol.path}") for a in args]
         return ModuleCall(self.symbol, sp.Tuple(*[0] * len(args)), *expressions)
 
 
 @dataclass(frozen=True)
 class Eq:
-    """An equation ``lhs = rhs`` between expressions; ``place`` is where it is stated, as far as that is known."""
+    """An equation ``lhs = rhs`` between expressions; ``place`` is where it is stated, as far as that is known.
+
+    Of arrays it is a tuple of equations, one for each element.
+    """
 
     lhs: sp.Expr
     rhs: sp.Expr
     place: str = field(default="", compare=False, repr=False)
+
+    def __new__(cls, lhs: Any = None, rhs: Any = None) -> Any:  # pyright: ignore[reportInconsistentConstructor]
+        """One equation, or several."""
+        if is_array(lhs) or is_array(rhs):
+            return tuple(cls(*both) for both in pairs(lhs, rhs, "an equation"))
+        return super().__new__(cls)
 
     def __init__(self, lhs: Any, rhs: Any) -> None:
         object.__setattr__(self, "lhs", _side(lhs, "an equation's left side"))
@@ -343,13 +358,16 @@ def references(expression: sp.Expr) -> Iterator[Reference]:
     return iter(seen)
 
 
-def elements(
-    owner: Owner, name: str, declaration: Declaration, shape: tuple[int, ...] | None
-) -> Any:
-    """A reference, or nested tuples of references."""
-    references = iter([Reference(owner, path, declaration) for path in element_names(name, shape)])
+def refer(owner: Owner, name: str, declaration: Declaration, shape: tuple[int, ...] | None) -> Any:
+    """A reference, or an array of references."""
+    references = [Reference(owner, path, declaration) for path in element_names(name, shape)]
+    return references[0] if shape is None else elements(shape, references)
 
-    def nested(sizes: tuple[int, ...]) -> Any:
-        return tuple(nested(sizes[1:]) for _ in range(sizes[0])) if sizes else next(references)
 
-    return nested(shape or ())
+def each(stated: Iterable[Any]) -> Iterator[Any]:
+    """Statements one by one, with those of arrays element by element."""
+    for one in stated:
+        if isinstance(one, tuple):
+            yield from one
+        else:
+            yield one

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, cast
 
 import sympy as sp
 
 from acausal.errors import nearest
-from acausal.modeling import Component, Connector, Eq, ModuleReference, When
+from acausal.modeling import Component, Connector, Eq, ModuleReference, When, is_vector
 
 START_KEYS = {"start": "value", "fixed": "fixed", "nominal": "nominal", "stateSelect": "state"}
 """Attributes of a variable in a file -> field of `Start`."""
@@ -107,9 +107,7 @@ def attribute(model: Component, path: str) -> Any:
     for found in NAME_OR_INDEX.finditer(path):
         if found[2] is not None:
             for index in found[2].split(","):
-                if not isinstance(value, Sequence) or not 1 <= int(index) <= len(
-                    cast(Sequence[Any], value)
-                ):
+                if not is_vector(value) or not 1 <= int(index) <= len(value):
                     return None
                 value = value[int(index) - 1]
         else:

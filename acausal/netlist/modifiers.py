@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from inspect import signature
 from typing import Any, cast, get_args
 
@@ -18,6 +18,7 @@ from acausal.modeling import (
     Parameter,
     Variable,
     check_size,
+    each,
 )
 from acausal.netlist.file import NetlistError, kind, within
 from acausal.netlist.model import START_KEYS, arguments_of
@@ -166,12 +167,6 @@ def _variable(scope: Scope, part: Component, declared: Variable, raw: Any, where
 def _bind(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None:
     if isinstance(part._node.declaration(key), Input):
         raise NetlistError(f"{where} is an input; connect a source to it")
-    value, variable = scope.value(raw, where), getattr(part, key)
-    pairs = [(variable, value)]
-    if isinstance(variable, Sequence) and isinstance(value, Sequence):
-        values, variables = cast(Sequence[Any], value), cast(Sequence[Any], variable)
-        if len(values) != len(variables):
-            raise NetlistError(f"{where} has {len(variables)} elements, not {len(values)}")
-        pairs = list(zip(variables, values, strict=True))
-    for left, right in pairs:
-        scope.bind(within(where, lambda a=left, b=right: Eq(a, b)))
+    value = scope.value(raw, where)
+    for equation in each([within(where, lambda: Eq(getattr(part, key), value))]):
+        scope.bind(equation)

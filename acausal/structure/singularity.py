@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError, listing
 from acausal.flattening import FlatModel, Origin
-from acausal.modeling import Component, Eq, Potential
+from acausal.modeling import Component, Eq, Potential, each
 from acausal.structure import graph
 from acausal.structure.equations import Equations
 
@@ -158,7 +158,7 @@ def _base_without_effect(component: Component) -> type[Component] | None:
     stating = [c for c in type(component).__mro__ if "equations" in vars(c) and c is not Component]
     if len(stating) < 2:
         return None
-    own = list(component.equations())
+    own = list(each(component.equations()))
     for base in stating[1:]:
         expected = list(_equations_of(base, component))
         if expected and not any(equation in own for equation in expected):
@@ -168,6 +168,6 @@ def _base_without_effect(component: Component) -> type[Component] | None:
 
 def _equations_of(base: type[Component], component: Component) -> Iterator[Eq]:
     try:
-        yield from base.equations(component)
+        yield from each(base.equations(component))
     except (NotImplementedError, AttributeError, DeclarationError):
         return  # the base class leaves them to its subclasses

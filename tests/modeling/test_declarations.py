@@ -82,9 +82,9 @@ def test_eq_refuses_what_is_no_expression(value, told):
         ac.Eq(Part().x, value)
 
 
-def test_a_vector_is_no_side_of_an_equation():
-    with pytest.raises(ac.DeclarationError, match="left side is tuple"):
-        ac.Eq(Part().y, 0)
+def test_a_list_is_no_side_of_an_equation():
+    with pytest.raises(ac.DeclarationError, match="left side is list"):
+        ac.Eq([*Part().y], 0)
 
 
 def test_start_checks_its_state_preference():

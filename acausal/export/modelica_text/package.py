@@ -46,6 +46,7 @@ from acausal.modeling import (
     Tick,
     Variable,
     When,
+    each,
     full_name,
     owner_and_name,
     references,
@@ -139,7 +140,7 @@ class ClassWriter:
         self.final: set[str] = set()  # parameters whose value the equations have taken in
         self.feeds: list[str] = []
         self.printing = Names(self.path, self._call, self._variable, self._tick)
-        self.counts = any(map(_is_mixed, component.equations()))
+        self.counts = any(map(_is_mixed, each(component.equations())))
         self.printer = Printer(self.printing)
         self.given: Flat = {}  # what was set in the whole model itself: no class around it says so
         if inputs is not None:
@@ -151,11 +152,13 @@ class ClassWriter:
         doc = (type(self.component).__doc__ or "").strip().split("\n")[0].replace("`", "")
         parts = self._parts()
         label = self.node.label
-        stated_here = stated([self._without_zeros(e) for e in self.component.equations()], label)
+        stated_here = stated(
+            [self._without_zeros(e) for e in each(self.component.equations())], label
+        )
         lines_of = partial(equation, self.printing, indent="  ")
         flow = [line for e in stated_here for line in lines_of(e)]
         declared = [line for n, d in self.node.declarations() for line in self._declaration(n, d)]
-        start = [line for e in self.component.initial_equations() for line in lines_of(e)]
+        start = [line for e in each(self.component.initial_equations()) for line in lines_of(e)]
         self.feeds += [f"{identifier(y)} = {identifier(d)};" for y, d in self._held.items()]
         pairs = [f"connect({self._end(a)}, {self._end(b)});" for a, b in self.node.connections]
         for given in self.inputs:
@@ -198,7 +201,8 @@ class ClassWriter:
         if not isinstance(stated, Eq) or not (found := _derivatives(stated)):
             return stated
         for r in [r for side in (stated.lhs, stated.rhs) for r in references(side)]:
-            is_zero = r.owner is self.node and getattr(r.declaration, "default", None) == 0
+            default = getattr(r.declaration, "default", None)
+            is_zero = r.owner is self.node and np.ndim(default) == 0 and default == 0
             if is_zero and r.path not in self.node.modifiers:
                 folded = Eq(*(s.xreplace({r: sp.S.Zero}) for s in (stated.lhs, stated.rhs)))
                 if _derivatives(folded) < found:
