@@ -39,12 +39,14 @@ class Stages(NamedTuple):
     Attributes:
         increments: the step times their derivatives, shape (n_stages, n_states); NaN where they are not found.
         done: whether they are. jacobians, corrections: what that has cost.
+        factors: of the matrix that the last one was solved with.
     """
 
     increments: Float[Array, "n_stages n_states"]
     done: Bool[Array, ""]
     jacobians: Int[Array, ""]
     corrections: Int[Array, ""]
+    factors: Any
 
 
 class _Row(NamedTuple):
@@ -84,8 +86,8 @@ def stages(
     fixed, at, c = without_derivatives((fields, guess(begin, increments), begin.own * h))
     factors = jacobian.factorized(fixed(begin.fraction), at, c)
     cost = jnp.array(True), jnp.ones((), jnp.int32), jnp.zeros((), jnp.int32)
-    (increments, _, cost), _ = lax.scan(one, (increments, factors, cost), rows)
-    return Stages(increments, *cost)
+    (increments, factors, cost), _ = lax.scan(one, (increments, factors, cost), rows)
+    return Stages(increments, *cost, factors)
 
 
 def _rows(tableau: Tableau, dtype: Any) -> _Row:

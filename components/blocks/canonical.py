@@ -26,7 +26,7 @@ def canonical_form(u: Any, y: Any, x: Any, b: Any, a: Any) -> Iterator[ac.Eq]:
     """
     b = (*[0] * (len(a) - len(b)), *b)
     d = b[0] / a[0]
-    if x:
+    if len(x):
         yield ac.Eq(ac.der(x[0]), (u - dot(a[1:], x)) / a[0])
     for after, before in zip(x[1:], x[:-1], strict=True):
         yield ac.Eq(ac.der(after), before)

@@ -4,6 +4,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, ClassVar
 
+import numpy as np
+
 import acausal as ac
 from acausal.components import icons
 
@@ -83,10 +85,7 @@ class MultiProduct(SO):
     u = ac.Input(shape="nu", doc="input signals")
 
     def equations(self) -> Iterator[ac.Eq]:
-        product: Any = 1 if self.u else 0
-        for u in self.u:
-            product = product * u
-        yield ac.Eq(self.y, product)
+        yield ac.Eq(self.y, np.prod(self.u) if len(self.u) else 0)
 
 
 class Sum(MISO):

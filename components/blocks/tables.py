@@ -182,7 +182,7 @@ class CombiTimeTable(PartialColumns, MO, _TimeTable):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        offsets = self.offset if len(self.offset) > 1 else self.offset * self.nout
+        offsets = np.broadcast_to(self.offset, self.nout)
         for y, offset, column in zip(self.y, offsets, self.column, strict=True):
             yield self._equation(y, offset, column)
 

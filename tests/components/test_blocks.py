@@ -148,7 +148,7 @@ class Panel(ac.Component):
                 (("u2", "u_m", "u_im", "u_arg"), self.u2),
             ):
                 for s in signals:
-                    if s in type(part)._declared and not isinstance(getattr(part, s), tuple):
+                    if s in type(part)._declared and not isinstance(getattr(part, s), np.ndarray):
                         self.connect(own, getattr(part, s))
 
 
@@ -475,7 +475,7 @@ class Responses(ac.Component):
         for source, parts in ((self.one, steps), (self.ramp, ramps)):
             for name, part in parts.items():
                 setattr(self, name, part)
-                signal_in = part.u[0] if isinstance(part.u, tuple) else part.u
+                signal_in = part.u[0] if isinstance(part.u, np.ndarray) else part.u
                 self.connect(source.y, signal_in)
         self.wave = blocks.SineVariableFrequencyAndAmplitude(useConstantAmplitude=True)
         self.connect(self.ramp.y, self.wave.f)

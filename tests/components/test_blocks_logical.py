@@ -92,7 +92,7 @@ class Panel(ac.Component):
             flat = []
             for key in inputs:
                 value = getattr(part, key)
-                flat += value if isinstance(value, tuple) else [value]
+                flat += value.flat if isinstance(value, np.ndarray) else [value]
             for i, signal in enumerate(flat):
                 self.connect((self.a, self.b, self.c)[i % 3], signal)
 

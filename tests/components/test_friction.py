@@ -250,3 +250,23 @@ def test_brakes_that_share_a_load_hold_it_and_their_torques_are_told_to_be_open(
 def test_clutches_that_lock_the_same_motion_are_named():
     with pytest.raises(ac.SimulationError, match=r"0\.625.*'first.tau'.*lock the same motion"):
         ac.simulate(ac.compile(Redundant("Clutch")), 4.0, inputs=FULL)
+
+
+class Backstop(ac.Component):
+    """A one-way clutch against the ground: a heavy shaft may turn forward alone."""
+
+    def __init__(self):
+        super().__init__()
+        self.load, self.ground = rot.Torque(), rot.Fixed()
+        self.wheel = rot.OneWayClutch(fn_max=1.0)
+        self.shaft = rot.Inertia(J=5.0, phi=REST, w=REST)
+        self.connect(self.ground.flange, self.wheel.flange_a)
+        self.connect(self.wheel.flange_b, self.shaft.flange_a)
+        self.connect(self.shaft.flange_b, self.load.flange)
+
+
+def test_a_backstop_lets_a_heavy_shaft_start():
+    inputs = {"load.tau": lambda t: 2 * t - 1, "wheel.f_normalized": 0.0}
+    run = ac.simulate(ac.compile(Backstop()), 2.0, inputs=inputs)
+    started = np.maximum(np.asarray(run.t) - 0.5, 0)
+    np.testing.assert_allclose(run["shaft.w"], started**2 / 5, atol=1e-5)

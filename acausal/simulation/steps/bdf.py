@@ -27,7 +27,7 @@ from acausal.simulation.steps.multistep import (
     slopes,
     weights,
 )
-from acausal.simulation.steps.one_step import defect, first_step, look_inside
+from acausal.simulation.steps.one_step import SMALL, defect, first_step, look_inside
 from acausal.simulation.steps.problem import Attempt, Counts, Integration, RightHandSide
 
 State = Float[Array, " n_states"]
@@ -192,7 +192,7 @@ class Multistep(eqx.Module):
                 self.jacobian.iteration_matrix.solve(fixed, r), x_before, found
             )
 
-        error, rates, looked = look_inside(problem, error, INSIDE, size, OF_DEFECT)
+        error, rates, looked = look_inside(problem, error, INSIDE, size, OF_DEFECT, SMALL)
         accepted = error < 1
         dense = StepPolynomial(jnp.concatenate([exact[None], memory.states]), _with_end(s), q)
         solved = m._replace(matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted))

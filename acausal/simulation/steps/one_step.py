@@ -72,6 +72,7 @@ class Made(NamedTuple):
         first: of the next step. done: whether its equations are solved.
         fastest: an estimate of the fastest mode, in 1/s.
         counts: what it has cost.
+        factors: of the matrix that its equations were solved with, if there are some.
     """
 
     x: State
@@ -81,6 +82,7 @@ class Made(NamedTuple):
     done: Bool[Array, ""]
     fastest: Float[Array, ""]
     counts: Counts
+    factors: Any = None
 
 
 def look_inside(
@@ -89,6 +91,7 @@ def look_inside(
     points: tuple[float, ...],
     size: Callable[[Any], Array],
     weight: float,
+    below: float,
 ) -> tuple[Array, Array, Array]:
     """Look at more points of a step whose error is small, or in which the right-hand side may bend.
 
@@ -96,11 +99,12 @@ def look_inside(
         error: of the step, over what is allowed.
         points: shares of the step. size: the defect at one, over what is allowed.
         weight: what a defect counts as an error.
+        below: the error below which it is small; of a right-hand side that bends, any that is allowed.
 
     Returns:
         The error of the step after that, the evaluations that took, and whether the step counts no more.
     """
-    looks = error < (1.0 if problem.field.bends else SMALL)
+    looks = error < (1.0 if problem.field.bends else below)
 
     def largest() -> Array:
         if problem.field.is_long:
@@ -168,9 +172,9 @@ class OneStep(eqx.Module):
 
         def size(share: Any) -> Array:
             off = defect(self, fixed, dense, begin, length, share)[1]
-            return fixed.tolerances.size(off, *ends)
+            return fixed.tolerances.size(self.as_state(made, off), *ends)
 
-        error, rates, looked = look_inside(problem, error, INSIDE, size, OF_DEFECT)
+        error, rates, looked = look_inside(problem, error, INSIDE, size, OF_DEFECT, self.small)
         accepted = error < 1
         factor = SAFETY * error ** (-1 / self._order)
         least, most = jnp.where(accepted, 1.0, SHORTER), jnp.where(accepted, LONGER, SAFETY)
@@ -192,6 +196,13 @@ class OneStep(eqx.Module):
             accepted & (limited >= STIFF_AFTER),
             made.counts.plus(Counts.of(rates=rates, looks=looked)),
         )
+
+    small: ClassVar[float] = SMALL
+    """Steps with errors below this part of what is allowed are looked into."""
+
+    def as_state(self, made: Made, off: State) -> State:
+        """What a defect within a step means for the state there."""
+        return off
 
     def between(self, dense: dict[str, Any], t: Array, h: Array, at: Array) -> State:
         """The state at a time within a step from t of length h."""

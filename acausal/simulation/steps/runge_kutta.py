@@ -160,7 +160,16 @@ class Diagonal(OneStep):
         dense = {"y0": x, "y1": end}
         if self.solver.interpolation_cls is not dfx.LocalLinearInterpolation:
             dense["k"] = k
-        return Made(end, error, dense, last, found.done, jnp.zeros_like(h), counts)
+        fastest = jnp.zeros_like(h)
+        return Made(end, error, dense, last, found.done, fastest, counts, found.factors)
+
+    small: ClassVar[float] = 1.0
+    """Its interpolation is of lower order than its steps, and all of these are looked into."""
+
+    def as_state(self, made: Made, off: State) -> State:
+        """A fast mode follows its equilibrium: the defect is divided by the matrix of the stages."""
+        solve = self.scheme.jacobian.iteration_matrix.solve
+        return solve(lax.stop_gradient(made.factors), lax.stop_gradient(off))
 
 
 def _within(fraction: Any, args: tuple[RightHandSide, Array, Array]) -> Rates:
