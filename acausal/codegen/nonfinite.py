@@ -97,7 +97,8 @@ def _formula(name: str, formula: str, value: float) -> str:
 def _singular(names: list[str]) -> str:
     return (
         f"the linear equations for {listing(names)} are singular; "
-        "does a parameter make two of them the same, or one of them void, or do two parts lock the same motion?"
+        "does a parameter make two of them the same, or one of them void, or do two parts lock the same motion? "
+        "Of two frictions that do, one may creep instead (smooth=True)."
     )
 
 
