@@ -434,6 +434,11 @@ class ClassNode:
         inherited = [name for base in bases if isinstance(base, ClassNode) for name in base.names()]
         return [*dict.fromkeys((*self.classes, *self.files, *inherited))]
 
+    @property
+    def is_nested(self) -> bool:
+        """Whether a class that is no package defines it."""
+        return isinstance(self.parent, ClassNode) and self.parent.definition.kind != "package"
+
     def models(self) -> Iterator[ClassNode]:
         """The models in it that can be compiled, itself included, in order."""
         if self.definition.kind in ("model", "block", "class") and not self.definition.partial:

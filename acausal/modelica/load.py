@@ -36,7 +36,7 @@ def load(
     Arguments:
         file: the file; of a package that is a folder the folder, or its ``package.mo``.
         model: name of a class in the file, such as ``"Package.Model"``; by default the last model of the file that is
-            not partial. A netlist is one model.
+            not partial, nor nested in another model. A netlist is one model.
         libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
         path: folders with further packages of Modelica text, before those in ``MODELICAPATH``.
         budget: how large the model may become, here and when it is compiled; by default ``ac.Budget()``.
@@ -80,9 +80,12 @@ def _wanted(file: Path, tree: Tree, nodes: list[ClassNode], name: str | None) ->
     if not isinstance(found, ClassNode):
         models = [inner for node in nodes for inner in node.models()]
         if name is None:
-            if not models:
-                raise ModelicaError(f"{file.name}: there is no model in it that is not partial")
-            return models[-1]
+            outer = [m for m in models if not m.is_nested]
+            if not outer:
+                raise ModelicaError(
+                    f"{file.name}: there is no model in it that is neither partial nor nested in another"
+                )
+            return outer[-1]
         same = [m for m in models if m.full.endswith(f".{name}")]
         if len(same) != 1:
             known = [m.full for m in models]

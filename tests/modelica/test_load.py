@@ -133,6 +133,15 @@ def test_the_last_model_is_meant_or_one_by_its_name(tmp_path: Path) -> None:
         ac.load(file, 3)  # type: ignore[arg-type]
 
 
+def test_a_model_within_another_is_meant_by_its_name_only(tmp_path: Path) -> None:
+    file = tmp_path / "nested.mo"
+    file.write_text("model Whole model Part Real x=1; end Part; Part a; end Whole;")
+    assert (type(ac.load(file)).__name__, type(ac.load(file, "Part")).__name__) == ("Whole", "Part")
+    file.write_text("partial model Whole model Part Real x=1; end Part; end Whole;")
+    with pytest.raises(ac.ModelError, match="neither partial nor nested"):
+        ac.load(file)
+
+
 def test_lines_of_the_text_are_named_where_equations_do_not_fit(tmp_path: Path) -> None:
     file = tmp_path / "Bad.mo"
     file.write_text(
