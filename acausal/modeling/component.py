@@ -6,7 +6,7 @@ import copy
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
+from typing import Any, ClassVar, Self, cast
 
 from acausal.errors import ConnectionError, DeclarationError, like, nearest, need_text, shown
 from acausal.modeling.budget import charge
@@ -59,11 +59,6 @@ class Component:
 
     __signature__ = SignatureOf()
     """What can be given where a component is made, for `help` and editors."""
-
-    if TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            """Parts that ``__init__`` assigns under computed names."""
 
     _node: Node[Component]
     """The component's record; all other attributes belong to the class's author."""
@@ -253,6 +248,14 @@ class Component:
         above.children[name] = part
         part.modify(**above.early_modifiers.pop(name, {}))
         return part
+
+    def __getattr__(self, name: str) -> Any:
+        """Refuse a name that the component lacks; type checkers accept parts that ``__init__`` assigns."""
+        if name.startswith("_") or hasattr(type(self), name):  # a property's own error
+            return object.__getattribute__(self, name)
+        known = [n for n in (*self._declared, *vars(self), *dir(self)) if not n.startswith("_")]
+        reason = f"{self._node.label} has no '{name}': {nearest(name, dict.fromkeys(known))}"
+        raise AttributeError(reason, name=name)  # with its name, so that Python adds no guess
 
     def __copy__(self) -> Self:
         """A component of its own, with parts of its own: as `copy.deepcopy`."""

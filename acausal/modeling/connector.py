@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, ClassVar, Self, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, nearest
 from acausal.modeling.budget import charge
 from acausal.modeling.declarations import (
     Declaration,
@@ -124,6 +124,15 @@ class Connector:
     def carried(cls, enters: Self, leaves: Self) -> Iterable[Eq]:
         """Equations for further potentials and flows of a two-port, in domains that have them."""
         return ()
+
+    if not TYPE_CHECKING:  # so that type checkers go on to refuse misspelled attributes
+
+        def __getattr__(self, name: str) -> Any:
+            """Refuse a name that the connector lacks."""
+            if name.startswith("_") or hasattr(type(self), name):
+                return object.__getattribute__(self, name)
+            reason = f"{self!r} has no '{name}': {nearest(name, self.declarations)}"
+            raise AttributeError(reason, name=name)
 
     def __repr__(self) -> str:
         path = "" if self._owner is None else self._owner.path

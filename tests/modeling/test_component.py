@@ -403,6 +403,31 @@ def test_a_part_takes_no_number_under_a_name_that_it_lacks() -> None:
     model.resistor.R = 400.0
 
 
+def test_an_attribute_that_is_missing_is_refused_with_place_and_near_names() -> None:
+    model = Model()
+    model.mass = Mass(m=1.0)
+    with pytest.raises(
+        AttributeError, match=r"Mass 'mass' has no 'flange_q': did you mean 'flange"
+    ):
+        model.connect(model.mass.flange_a, model.mass.flange_q)
+    with pytest.raises(
+        AttributeError, match=r"mass\.flange_a \(Flange\) has no 'x': known are 's', 'f'"
+    ):
+        _ = model.mass.flange_a.x  # pyright: ignore[reportAttributeAccessIssue]
+    assert not hasattr(model, "nothing")
+    assert getattr(model.mass.flange_a, "nothing", 3) == 3
+
+
+def test_a_property_keeps_its_own_error() -> None:
+    class Part(ac.Component):
+        @property
+        def total(self) -> float:
+            return self.mass.lost
+
+    with pytest.raises(AttributeError, match="Part has no 'mass'"):
+        _ = Part().total
+
+
 def test_variables_are_not_differentiated_by_sympy() -> None:
     class Decay(ac.Component):
         x = ac.Variable(start=1.0)
