@@ -119,11 +119,6 @@ def _default(form: Form, path: str, declaration: Parameter) -> float:
     if declaration.shape is not None and declaration.name in form.prototype._node.modifiers:
         return np.nan  # all instances of the form have such an array of their own
     where = f"{form.prototype._node.label}.{declaration.name}"
-    if declaration.shape is None and isinstance(default, list | tuple | np.ndarray):
-        shape = np.shape(np.asarray(default, dtype=object))
-        raise DeclarationError(
-            f"{where}: its default {shown(default)} is an array; declare shape={shape}"
-        )
     try:
         if declaration.shape is not None:
             index = tuple(int(i) - 1 for i in path[path.rindex("[") + 1 : -1].split(","))

@@ -158,15 +158,24 @@ class Node(Generic[C]):
 
         Raises:
             DeclarationError: where a size follows from a value that was not given, has other dimensions, or is more
-                than the budget allows.
+                than the budget allows; where the default of a scalar is an array.
         """
         if declared.shape is None:
+            self._refuse_array(name, declared)
             return None
         shape = self._sizes(name, declared)
         if shape and min(shape) < 0:
             raise DeclarationError(f"{self.label}.{name} cannot have {min(shape)} elements")
         check_size(math.prod(shape), f"{self.label}.{name}")
         return shape
+
+    def _refuse_array(self, name: str, declared: Declaration) -> None:
+        default = declared.default if isinstance(declared, Parameter) else None
+        if isinstance(default, list | tuple | np.ndarray):
+            shape = np.shape(np.asarray(cast(Any, default), dtype=object))
+            raise DeclarationError(
+                f"{self.label}.{name}: its default {shown(default)} is an array; declare shape={shape}"
+            )
 
     def _sizes(self, name: str, declared: Declaration) -> tuple[int, ...]:
         declared_sizes = cast(tuple[int | str, ...], declared.shape)

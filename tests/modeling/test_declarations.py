@@ -156,8 +156,17 @@ def test_a_parameter_that_is_an_array_declares_its_shape() -> None:
     class Matrix(ac.Component):
         A = ac.Parameter(np.eye(2))
 
+    class Row(ac.Component):
+        a = ac.Parameter([1, 2, 3])
+        x = ac.Variable()
+
+        def equations(self) -> Iterator[ac.Eq]:
+            yield ac.Eq(self.x, self.a[0])
+
     with pytest.raises(ac.DeclarationError, match=r"is an array; declare shape=\(2, 2\)"):
         ac.compile(Matrix())
+    with pytest.raises(ac.DeclarationError, match=r"Row\.a: its default .* declare shape=\(3,\)"):
+        ac.compile(Row())
 
 
 @pytest.mark.parametrize("start", [[1.0, 2.0, 3.0], np.ones((2, 3)), np.ones((3, 2))])
