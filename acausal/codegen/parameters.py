@@ -133,7 +133,12 @@ class ParameterLayout(LeavesCaches):
                 f"'{name}' was left at its default of zero and is folded out of the equations; "
                 "give it where the component is made (0.0 will do) to keep it adjustable"
             )
-        return f"'{name}' is bound to an expression of other parameters; change these"
+        arguments = {b.target: b.arguments for b in self.model.bindings}
+        reached = [index]
+        for i in reached:
+            reached += [a for a in arguments.get(i, ()) if a not in reached]
+        sources = [self.model.layout.parameter(i) for i in reached if i not in arguments]
+        return f"'{name}' is bound to an expression; change {listing(sources)} in its place"
 
     def gather(self, parameters: Integers) -> Gather:
         """How to read some parameters out of ``Packed.values``, and a zero behind it for those that are folded."""
