@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
@@ -13,7 +14,7 @@ from sympy.core.relational import Relational
 
 from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.template import slot
-from acausal.modeling import HALF, Component, Eq, literal, references
+from acausal.modeling import HALF, Component, Eq, Reference, literal, references
 
 Origins = np.ndarray[Any, np.dtype[np.object_]]
 """An `Origin` for every instance."""
@@ -71,6 +72,12 @@ class Origin(LeavesCaches):
         return np.full(instances, self, dtype=np.object_)
 
 
+def dotted(symbols: Iterable[Reference], owner: Component) -> dict[sp.Basic, Any]:
+    """Symbols with dotted names for the variables and parameters of a component's parts."""
+    routes = ((symbol, symbol.owner.route_from(owner._node)) for symbol in symbols)
+    return {s: slot(".".join((*route, s.path))) for s, route in routes if route}
+
+
 def _with_names(equation: Eq, owner: Component) -> Eq:
     """The equation with dotted names for the variables and parameters of parts, also where it says nothing (x = x).
 
@@ -79,10 +86,7 @@ def _with_names(equation: Eq, owner: Component) -> Eq:
     stated = {*references(equation.lhs), *references(equation.rhs)}
     hidden = {r: r.declaration.meaning for r in stated if is_hidden(r.path)}
     meanings = {r: literal(meaning) for r, meaning in hidden.items() if meaning is not None}
-    names: dict[sp.Basic, Any] = {}
-    for reference in {*stated, *chain.from_iterable(map(references, meanings.values()))}:
-        if route := reference.owner.route_from(owner._node):
-            names[reference] = slot(".".join((*route, reference.path)))
+    names = dotted((*stated, *chain.from_iterable(map(references, meanings.values()))), owner)
     for reference, meaning in meanings.items():
         named = meaning.xreplace(names)
         if isinstance(named, Relational):

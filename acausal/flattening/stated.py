@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from acausal.errors import DeclarationError
-from acausal.flattening.origin import HIDDEN
+from acausal.flattening.origin import HIDDEN, dotted
 from acausal.flattening.silent import (
     Silent,
     discrete_side,
@@ -41,6 +41,7 @@ from acausal.modeling import (
     When,
     literal,
     number_or_truth,
+    references,
     time,
 )
 
@@ -314,9 +315,8 @@ class _Sorting:
             value: Any = lhs - rhs if above else rhs - lhs
             strict = isinstance(relation, sp.Gt | sp.Lt)
             target = self.known[relation] = self._new("bool", relation)
-            self.guards.append(
-                GuardStatement(target, self._ticking(value), str(relation), strict=strict)
-            )
+            text = str(relation.xreplace(dotted(references(relation), self.component)))
+            self.guards.append(GuardStatement(target, self._ticking(value), text, strict=strict))
         return self.known[relation]
 
     def _compared(self, expression: Any) -> Any:

@@ -349,7 +349,7 @@ def number_or_expression(value: Any, where: str) -> sp.Expr:
     return sp.Integer(int(number)) if number.is_integer() else sp.Float(number)
 
 
-def references(expression: sp.Expr) -> Iterator[Reference]:
+def references(expression: sp.Basic) -> Iterator[Reference]:
     """The references in an expression, each once, in order of appearance."""
     seen: dict[Reference, None] = {}
     for node in sp.preorder_traversal(expression):

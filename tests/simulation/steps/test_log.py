@@ -43,6 +43,21 @@ def run(system: ac.System) -> Any:
     return ac.simulate(system, (0.0, 3.0), inputs={"u": steps}, saveat=np.linspace(0, 3, 7))
 
 
+def test_a_condition_names_the_variables_of_parts_in_full() -> None:
+    class Watch(ac.Component):
+        n = ac.Discrete(0, kind="int")
+
+        def __init__(self) -> None:
+            super().__init__()
+            self.ball = Ball()
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.When(self.ball.v < -1, ac.Eq(self.n, ac.pre(self.n) + 1))
+
+    run = ac.simulate(ac.compile(Watch()), (0.0, 0.2), dt=0.1)
+    assert [event.condition for event in run.events] == ["ball.v < -1"]
+
+
 @pytest.mark.slow
 def test_events_name_the_component_and_what_has_changed(run: Any) -> None:
     first, jump, *_ = run.events
