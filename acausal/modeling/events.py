@@ -258,13 +258,13 @@ class Reinit:
     state: Reference
     value: sp.Expr
 
-    def __new__(cls, state: Any = None, value: Any = None) -> Any:  # pyright: ignore[reportInconsistentConstructor]
+    def __new__(cls, state: Any = None, value: Any = None) -> Any:  # a copy gives none
         """One jump, or several."""
         if is_array(state) or is_array(value):
             return tuple(cls(*both) for both in pairs(state, value, "Reinit(...)"))
         return super().__new__(cls)
 
-    def __init__(self, state: Any, value: Any) -> None:
+    def __init__(self, state: Any, value: Any) -> None:  # pyright: ignore[reportInconsistentConstructor]
         if not isinstance(state, Reference):
             raise DeclarationError(f"Reinit({shown(state)}, ...): only a variable can jump")
         object.__setattr__(self, "state", state)

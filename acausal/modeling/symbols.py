@@ -301,13 +301,13 @@ class Eq:
     rhs: sp.Expr
     place: str = field(default="", compare=False, repr=False)
 
-    def __new__(cls, lhs: Any = None, rhs: Any = None) -> Any:  # pyright: ignore[reportInconsistentConstructor]
+    def __new__(cls, lhs: Any = None, rhs: Any = None) -> Any:  # a copy gives none
         """One equation, or several."""
         if is_array(lhs) or is_array(rhs):
             return tuple(cls(*both) for both in pairs(lhs, rhs, "an equation"))
         return super().__new__(cls)
 
-    def __init__(self, lhs: Any, rhs: Any) -> None:
+    def __init__(self, lhs: Any, rhs: Any) -> None:  # pyright: ignore[reportInconsistentConstructor]
         object.__setattr__(self, "lhs", _side(lhs, "an equation's left side"))
         object.__setattr__(self, "rhs", _side(rhs, "an equation's right side"))
 
