@@ -20,8 +20,8 @@ def select_states(system: Equations) -> list[int]:
     """Choose dummy derivatives (Mattsson & Soderlind 1993) and keep the most preferred variables as states.
 
     The differentiated constraints determine the dummies if their Jacobian has full rank. This is decided numerically:
-    at the model's start values; where these are a singular point, as angles of zero often are, at those that modifiers
-    give, and random values for the others; at last at random values alone.
+    at the model's start values; where these are a singular point, as angles of zero often are, or one that asks for less
+    preferred states, at those that modifiers give, and random values for the others; at last at random values alone.
 
     Raises:
         StructureError: if the constraints depend on each other.
@@ -35,7 +35,8 @@ def select_states(system: Equations) -> list[int]:
     points = _points(system) if constraints else ()
     while constraints:
         candidates.sort(key=lambda v: wanted(antecedent[v]))
-        dummy = _independent(system, constraints, candidates, points)
+        preferences = {v: wanted(antecedent[v])[0] for v in candidates}
+        dummy = _independent(system, constraints, preferences, points)
         dummies.update(dummy)
         constraints = [
             system.derived_from[e]
@@ -49,16 +50,32 @@ def select_states(system: Equations) -> list[int]:
 
 
 def _independent(
-    system: Equations, constraints: list[int], candidates: list[int], points: Sequence[Point]
+    system: Equations,
+    constraints: list[int],
+    preferences: dict[int, float],
+    points: Sequence[Point],
 ) -> list[int]:
-    """Candidates that the constraints determine, as many as there are constraints."""
-    left: list[int] = []
+    """Candidates that the constraints determine, as many as there are constraints: those with the least preference.
+
+    Arguments:
+        preferences: by candidate, the least first. points: of those that leave the same, the first one decides.
+    """
+    candidates, left = [*preferences], list[int]()
+    least, best = sum([*preferences.values()][: len(constraints)]), list[int]()
     for point in points:
         rows, columns, values = system.jacobian(constraints, point)
         shape = len(constraints), len(system.structure.derivative)
-        chosen, left = choose_columns(csr_array((values, (rows, columns)), shape=shape), candidates)
-        if not left:
-            return chosen
+        chosen, missed = choose_columns(
+            csr_array((values, (rows, columns)), shape=shape), candidates
+        )
+        left = left if best else missed
+        cost = sum(preferences[v] for v in chosen)
+        if not missed and (not best or cost < sum(preferences[v] for v in best)):
+            best = chosen
+            if cost == least:
+                break
+    if best or not constraints:
+        return best
     names = listing(dict.fromkeys(system.describe(constraints[row]) for row in left), 6)
     raise StructureError(
         f"constraints between states repeat or contradict others: {names}. "
