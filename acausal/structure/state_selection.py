@@ -15,13 +15,16 @@ from acausal.structure.rank import choose_columns
 
 DEFAULT = float(STATE_SELECT.index("default"))
 
+FIXED = 0.25
+"""How much more a variable with a fixed start is preferred: less than what a model's author says."""
+
 
 def select_states(system: Equations) -> list[int]:
     """Choose dummy derivatives (Mattsson & Soderlind 1993) and keep the most preferred variables as states.
 
     The differentiated constraints determine the dummies if their Jacobian has full rank. This is decided numerically:
-    at the model's start values; where these are a singular point, as angles of zero often are, or one that asks for less
-    preferred states, at those that modifiers give, and random values for the others; at last at random values alone.
+    at the model's start values; where these are a singular point, as angles of zero often are, or one that keeps less
+    preferred variables, at those that modifiers give, and random values for the others; at last at random values.
 
     Raises:
         StructureError: if the constraints depend on each other.
@@ -97,7 +100,7 @@ def _points(system: Equations) -> list[Point]:
 def _preference(
     system: Equations, antecedent: dict[int, int]
 ) -> Callable[[int], tuple[float, int]]:
-    """How much a node is preferred as a state: by `stateSelect`, then by order of declaration.
+    """How much a node is preferred as a state: by `stateSelect`, then by a fixed start, then by order of declaration.
 
     The variables that it is a derivative of become states with it, so the average along that chain counts; of a node's
     names, the one with the highest preference counts.
@@ -107,6 +110,7 @@ def _preference(
     preference = np.full(len(system.structure.derivative), DEFAULT)
     preference[representative[:n]] = 0.0
     np.maximum.at(preference, representative[:n], system.model.state)
+    preference[np.unique(representative[:n][system.model.fixed])] += FIXED
 
     def wanted(node: int) -> tuple[float, int]:
         chain = [node]

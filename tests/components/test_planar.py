@@ -440,3 +440,45 @@ def test_equations_of_a_linkage_are_left_implicit_where_nobody_could_read_them()
     equations = ac.compile(DrivenFourBar()).equations
     assert sum(equation.rhs == 0 for equation in equations) >= 6
     assert max(equation.count_ops() for equation in equations) < 400
+
+
+class SliderCrank(ac.Component):
+    """A crank of 0.3 m that drives a slider by a rod of 1 m."""
+
+    def __init__(self, crank: str, others: str, s: float):
+        super().__init__()
+        self.ground, self.rails = planar.Fixed(), planar.Fixed()
+        self.crank = planar.Revolute(
+            phi=ac.Start(0.3, fixed=True), w=ac.Start(8.0, fixed=True), stateSelect=crank
+        )
+        self.short, self.long = (
+            planar.FixedTranslation(r=(0.3, 0)),
+            planar.FixedTranslation(r=(1, 0)),
+        )
+        self.pin, self.wrist = (
+            planar.Revolute(stateSelect=others),
+            planar.Revolute(stateSelect=others),
+        )
+        self.slide = planar.Prismatic(r=(1.0, 0.0), stateSelect=others, s=ac.Start(s))
+        self.wheel, self.slider = planar.Body(m=1.0, I=0.2), planar.Body(m=2.0, I=0.01)
+        self.connect(self.ground.frame, self.crank.frame_a)
+        self.connect(self.crank.frame_b, self.short.frame_a, self.wheel.frame_a)
+        self.connect(self.short.frame_b, self.pin.frame_a)
+        self.connect(self.pin.frame_b, self.long.frame_a)
+        self.connect(self.long.frame_b, self.wrist.frame_a)
+        self.connect(self.wrist.frame_b, self.slide.frame_b, self.slider.frame_a)
+        self.connect(self.rails.frame, self.slide.frame_a)
+
+
+@pytest.mark.parametrize(("crank", "others"), [("always", "never"), ("prefer", "prefer")])
+@pytest.mark.parametrize("s", [1.28, 1.0])
+def test_a_preferred_or_fixed_crank_is_the_state(crank, others, s):
+    assert ac.compile(SliderCrank(crank, others, s)).states[:2] == ("crank.phi", "crank.w")
+
+
+@pytest.mark.slow
+def test_a_crank_passes_its_dead_points():
+    run = ac.simulate(ac.compile(SliderCrank("prefer", "prefer", 1.28)), 1.0)
+    energy = 0.1 * run["crank.w"] ** 2 + run["slide.v"] ** 2
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-5)
+    assert float(run["crank.phi"][-1]) == pytest.approx(7.3628, abs=1e-3)
