@@ -213,7 +213,7 @@ class LossyGear(
 def _at_flange_a(eta1: Any, eta2: Any, bearing1: Any, bearing2: Any) -> Any:
     """The bearing torque at ``flange_a``; half of it all where the teeth have no losses that would tell."""
     lossless = (ac.Abs(eta1 - 1) < _EPS) & (ac.Abs(eta2 - 1) < _EPS)
-    between = ac.where(lossless, 1, eta1 - 1 / eta2)
+    between = -ac.maximum(1 / eta2 - eta1, _EPS)
     return ac.where(lossless, bearing1 / 2, (bearing1 - bearing2) / between)
 
 

@@ -270,3 +270,22 @@ def test_a_backstop_lets_a_heavy_shaft_start():
     run = ac.simulate(ac.compile(Backstop()), 2.0, inputs=inputs)
     started = np.maximum(np.asarray(run.t) - 0.5, 0)
     np.testing.assert_allclose(run["shaft.w"], started**2 / 5, atol=1e-5)
+
+
+class Bearings(ac.Component):
+    """A gear that loses torque in its bearings alone."""
+
+    def __init__(self):
+        super().__init__()
+        self.drive = rot.Torque()
+        self.input, self.output = rot.Inertia(J=1.0, phi=REST, w=REST), rot.Inertia(J=4.0)
+        self.gear = rot.LossyGear(ratio=2.0, lossTable=[[0, 1, 1, 0.5, 0.5]])
+        self.connect(self.drive.flange, self.input.flange_a)
+        self.connect(self.input.flange_b, self.gear.flange_a)
+        self.connect(self.gear.flange_b, self.output.flange_a)
+
+
+def test_a_gear_without_losses_of_teeth_has_no_undefined_conditions():
+    """A warning of these would fail."""
+    run = ac.simulate(ac.compile(Bearings()), 1.0, inputs={"drive.tau": 2.0})
+    assert float(run["input.w"][-1]) == pytest.approx((2.0 - 0.5) / (1.0 + 4.0 / 2**2), rel=1e-6)
