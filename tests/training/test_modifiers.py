@@ -252,3 +252,11 @@ def test_a_parameter_that_is_not_free_is_explained():
 def test_bounds_in_the_wrong_order_are_refused_where_they_are_given(low, high):
     with pytest.raises(ac.TrainingError, match=r"^Bounded\(.*: the lower bound comes first"):
         ac.Bounded(low, high)
+
+
+def test_a_parameter_that_has_vanished_would_have_to_change_its_sign():
+    free = modifiers(["R"], None, {"R": 2.0}, lambda _: None, lambda _: (0.0, np.inf))
+    said = free.at_limit({"R": -1 + 1e-9}, lambda _: "Ohm")
+    assert said["R"].endswith(
+        "-100 %: it is zero, and would have to change its sign: look for what else the model lacks."
+    )

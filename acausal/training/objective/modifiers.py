@@ -34,6 +34,10 @@ FROM_ZERO = (
 )
 """Why a change that is relative cannot begin at 0."""
 
+VANISHED = "it is zero, and would have to change its sign:"
+FURTHER = "let it move further, or"
+"""What is to be done about a parameter that has run into a limit."""
+
 Scalar = Float[Array, ""]
 Number = Any
 """A float, or a scalar array where JAX traces."""
@@ -294,15 +298,19 @@ class Modifiers(eqx.Module):
         rows = zip(self.names, self.kinds, self.values, strict=True)
         found = {n: kind.limit(float(value), float(changes[n])) for n, kind, value in rows}
         return {
-            n: f"'{n}' has run into the limit of its modifier, {self.written(n, end, '+.3g', unit(n))}: let it move "
-            "further, or look for what else the model lacks."
+            n: f"'{n}' has run into the limit of its modifier, {self.written(n, end, '+.3g', unit(n))}: "
+            f"{VANISHED if self.relative(n) and end == -1 else FURTHER} look for what else the model lacks."
             for n, end in found.items()
             if end is not None
         }
 
+    def relative(self, name: str) -> bool:
+        """Whether a parameter's change is a part of it."""
+        return bool(self.kinds[self.names.index(name)].unit)
+
     def written(self, name: str, change: float, digits: str, unit: str) -> str:
         """A change as text, such as ``"+3.1 %"``; ``digits`` is a format, ``unit`` that of the parameter."""
-        if self.kinds[self.names.index(name)].unit:
+        if self.relative(name):
             return f"{100 * change:{digits}} %"
         return f"{change:{digits}}" if unit in ("", "1") else f"{change:{digits}} {unit}"
 
