@@ -87,7 +87,8 @@ def stages(
     factors = jacobian.factorized(fixed(begin.fraction), at, c)
     cost = jnp.array(True), jnp.ones((), jnp.int32), jnp.zeros((), jnp.int32)
     (increments, factors, cost), _ = lax.scan(one, (increments, factors, cost), rows)
-    return Stages(increments, *cost, factors)
+    done, jacobians, corrections = cost
+    return Stages(increments, done, jacobians, corrections, factors)
 
 
 def _rows(tableau: Tableau, dtype: Any) -> _Row:
