@@ -19,7 +19,7 @@ from tests.simulation.steps.test_chattering import Level
 from tests.support.bridges import bridge
 from tests.support.exported_c import ExportedC
 from tests.support.fmus import Unpacked, need_fmpy
-from tests.support.hybrid import Ball, Sampled, Step, Thermostat, ball_height
+from tests.support.hybrid import Ball, Braked, Sampled, Step, Thermostat, ball_height
 from tests.support.paths import SHARED
 from tests.support.slow import in_turn, some_slow
 from tests.test_event_oracles import LONGER
@@ -106,6 +106,7 @@ CASES = {
     "thermostat": Case(Thermostat, 40.0, 0.1),
     "sampled": Case(Sampled, 1.0, 0.03, "tsit5"),
     "step": Case(Step, 2.0, 0.07),
+    "braked": Case(Braked, 3.0, 0.05),
     "relay": Case(Relay, 6.0, 0.05, "rk4", (("level", np.sin),)),
     "slipping": Case(Slipping, 6.0, 0.05, "rk4", (("push.tau", lambda t: 2 * np.sin(2 * t)),)),
 }
@@ -186,7 +187,7 @@ def run_fmu(path: Path, case: Case, kind: str, **options: Any) -> Any:
 
 @pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
-@pytest.mark.parametrize("name", ["ball", "thermostat", "sampled", "relay"])
+@pytest.mark.parametrize("name", ["ball", "thermostat", "sampled", "relay", "braked"])
 def test_fmus_run_in_fmpy(name: str, fmi: str, tmp_path: Path) -> None:
     fmpy, case = need_fmpy(), CASES[name]
     path = tmp_path / "model.fmu"
@@ -246,6 +247,29 @@ def test_known_times_are_time_events(fmi: str, tmp_path: Path) -> None:
         *_, has_next, following = update()
         assert bool(has_next)
         assert following == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
+def test_what_rises_from_zero_at_a_time_event_crosses_zero_after_it(
+    fmi: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "braked.fmu"
+    ac.export.fmu(CASES["braked"].system, path, fmi=fmi)
+    fmu = Unpacked(path, fmi)
+    with fmu.instance("ModelExchange") as instance:
+        update = (
+            instance.fmu.newDiscreteStates if fmi == "2.0" else instance.fmu.updateDiscreteStates
+        )
+        update()
+        values = (c_double * 7)()
+        for time, expected in [(1.0, 0), (1.5, 0), (1.51, 1)]:
+            instance.fmu.setTime(time)
+            if time == 1.5:
+                instance.fmu.enterEventMode()
+                update()
+                instance.fmu.enterContinuousTimeMode()
+            instance.fmu.getEventIndicators(values, 7)
+            assert sum(z > 0 for z in values) == expected
 
 
 def test_states_of_fmus_hold_events(tmp_path: Path) -> None:

@@ -19,7 +19,7 @@ from acausal.fmu.derivatives import Differentiated
 from acausal.fmu.model_exchange import Exchange
 from tests.export.test_c import Chain
 from tests.support.fmus import need_fmpy
-from tests.support.hybrid import Ball, Sampled, Thermostat
+from tests.support.hybrid import Ball, Braked, Sampled, Thermostat
 
 
 class Mass(ac.Component):
@@ -237,7 +237,8 @@ def test_starts_of_states_are_guesses_that_x0_and_rest_replace(exported: Exporte
 @pytest.mark.slow
 @pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
-    ("model", "end", "name"), [(Ball, 2.4, "h"), (Thermostat, 12.0, "T"), (Sampled, 1.0, None)]
+    ("model", "end", "name"),
+    [(Ball, 2.4, "h"), (Thermostat, 12.0, "T"), (Sampled, 1.0, None), (Braked, 3.0, None)],
 )
 def test_events_are_those_of_the_model(
     exported: Exported, model: type[ac.Component], end: float, name: str | None

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 import acausal as ac
+from acausal.components import blocks, rotational as rot
 
 GRAVITY = 9.81
 
@@ -89,3 +90,16 @@ def sampled_end(period: float, k: float, t: float) -> float:
         u, h = k * (1 - x), min(period, t - now)
         x, now = u + (x - u) * np.exp(-h), now + h
     return x
+
+
+class Braked(ac.Component):
+    """A wheel whose brake is pressed from a known time on: what it is pressed by rises from zero there."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        start = ac.Start(10.0, fixed=True)
+        self.wheel = rot.Inertia(J=0.5, phi=ac.Start(0.0, fixed=True), w=start)
+        self.brake = rot.Brake(fn_max=30.0, mu_pos=[[0.0, 0.3]])
+        self.press = blocks.Ramp(duration=1.0, startTime=1.5)
+        self.connect(self.wheel.flange_b, self.brake.flange_a)
+        self.connect(self.press.y, self.brake.f_normalized)

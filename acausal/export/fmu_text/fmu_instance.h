@@ -200,15 +200,17 @@ static int update(Instance *c, int *changed, int *has_next, double *next) {
 
 static int find_indicators(Instance *c) {
     calibrate(c);
-    const double time = between_events(&c->now.m);
-    const int failed = model_conditions(&c->now.m) != 0;
-    c->now.m.time = time;
-    if (failed)
-        return complain(c, DISCARD, TITLE ": a condition is no finite number at t = %.9g s.", c->now.m.time);
+    Model *m = &c->now.m;
+    const double time = between_events(m);
+    const int is_behind = m->time > time, failed = model_conditions(m) != 0;
+    m->time = time;
+    if (failed) return complain(c, DISCARD, TITLE ": a condition is no finite number at t = %.9g s.", time);
     for (int i = 0; i < N_INDICATORS; i++) {
-        const int k = indicators[i];
-        const double z = k > 0 ? c->now.m.e.number[k - 1] : -c->now.m.e.number[-k - 1];
+        const int k = abs(indicators[i]) - 1, is_strict = indicators[i] > 0;
+        const int was_above = (m->d[k] > 0.5) == is_strict;
+        const double z = is_strict ? m->e.number[k] : -m->e.number[k];
         c->indicators[i] = z != 0 ? z : -1; /* zero counts as negative; solvers look away from what is zero */
+        if (is_behind && was_above != (z > 0)) c->indicators[i] *= -1; /* the event has not seen it change its sign */
     }
     return OK;
 }
