@@ -22,6 +22,8 @@ TWICE = (
     "blocks.CombiTimeTable into the model, which takes a time twice."
 )
 
+TEXTS = ": make numbers of texts by np.asarray(t, float)"
+
 Place: TypeAlias = Callable[[int], str]
 """How a message names a sample by its index: ``"sample 3"``, or ``"line 5"`` of a file."""
 
@@ -36,8 +38,10 @@ def check_time_base(ts: np.ndarray, what: str, place: Place = sample) -> None:
     if ts.ndim != 1 or len(ts) < 2:
         raise DataError(f"{what} needs a time base of at least two samples, got shape {ts.shape}.")
     if not is_real(ts) or ts.dtype == bool:
-        remedy = ": give (t - t[0]) / np.timedelta64(1, 's')" if ts.dtype.kind == "M" else ""
-        raise DataError(f"{what} has a time base of {ts.dtype}; seconds are needed{remedy}.")
+        remedy = {"M": ": give (t - t[0]) / np.timedelta64(1, 's')"} | dict.fromkeys("OUS", TEXTS)
+        raise DataError(
+            f"{what} has a time base of {ts.dtype}; seconds are needed{remedy.get(ts.dtype.kind, '')}."
+        )
     i = _first(~np.isfinite(ts))
     if i is not None:
         raise DataError(f"{what} has a time that is {ts[i]} at {place(i)}.")

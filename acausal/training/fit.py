@@ -36,8 +36,8 @@ def fit(
     Arguments:
         system: a compiled model.
         data: a record with all inputs and targets of the model, and its states where sequences start from them; or
-            several records, as a list or by name. They may differ in length and sample times, and miss samples. A
-            stream (`acausal.Data.stream`) is trained by sequences.
+            several records, as a list or by name. They may differ in length and sample times, and miss samples, or
+            a target that others have. A stream (`acausal.Data.stream`) is trained by sequences.
         targets: the variables to fit, measured in the data.
         params: where to start: those of the model's parameters that differ from what `system.parameters` gives for
             ``seed``, from which networks are made, or what a ``prior`` ends with.

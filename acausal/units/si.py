@@ -34,7 +34,10 @@ def convert(values: Numbers, given: str, wanted: str, what: str) -> Numbers:
         reason = str(e).replace(f"'{source}'", f"'{given}'")
         raise DataError(f"{what}: {reason}") from None
     if dimensions[0] != dimensions[1]:
-        raise DataError(f"{what} is given in '{given}', which cannot become '{wanted or '1'}'.")
+        declare = f": declare unit='{given}' in the model, or give its numbers with the unit '1'"
+        raise DataError(
+            f"{what} is given in '{given}', which cannot become '{wanted or '1'}'{declare * (target == '1')}."
+        )
     quantity = registry().Quantity(values, pint_unit(source))
     return np.asarray(quantity.to(pint_unit(target)).magnitude, np.float64)
 

@@ -172,6 +172,13 @@ def test_temperatures_that_look_like_degrees_celsius_are_said_to(recwarn):
             "'mass.v' is given in 'kg', which cannot become 'm/s'.",
         ),
         (
+            lambda: convert(TIME, "rpm", "", "'n'"),
+            (
+                "'n' is given in 'rpm', which cannot become '1': declare unit='rpm' in the model, "
+                "or give its numbers with the unit '1'."
+            ),
+        ),
+        (
             lambda: ac.Data(TIME, {"mass.v": TIME}).select(["mass.s"]),
             "The record has no 'mass.s': did you mean 'mass.v'?",
         ),

@@ -139,7 +139,11 @@ def test_traced_samples_and_times():
         ([0.0, 1.0], None, "'u' holds None; real numbers are needed."),
         ([0.0, 1.0], [1, None], "'u' holds object; real numbers are needed."),
         ([0.0, 1j], [1, 2], "'u' has a time base of complex128; seconds are needed."),
-        (["0", "1"], [1, 2], "'u' has a time base of <U1; seconds are needed."),
+        (
+            ["0", "1"],
+            [1, 2],
+            "'u' has a time base of <U1; seconds are needed: make numbers of texts by np.asarray(t, float).",
+        ),
         (
             np.float32([1e6, 1e6 + 0.01]),
             [1, 2],

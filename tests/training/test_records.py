@@ -223,6 +223,19 @@ def test_missing_samples_count_for_nothing():
     assert np.isfinite(alone.confidence().parameters["mass.m"])
 
 
+def test_a_record_may_lack_a_target_that_others_have():
+    data = runs() | {"long": runs()["long"].select(["mass.a", "push.f"])}
+    fit = train(data)
+    assert fit.params["mass.m"] == pytest.approx(TRUE["mass.m"], rel=1e-4)
+    assert np.isnan(fit.records["long"].rms["mass.s"])
+    assert fit.confidence().parameters["mass.m"] > 0
+    without = runs() | {"long": runs()["long"].select(["push.f"])}
+    with pytest.raises(
+        ac.DataError, match=r"^'long' lacks 'mass.a', 'mass.s', so .*leave this record out"
+    ):
+        train(without)
+
+
 def test_the_equation_error_bridges_short_gaps_and_leaves_out_long_ones():
     data = runs()["long"]
     signals = {n: v.copy() for n, v in data.signals.items()}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from acausal._jax import array, is_number
 from acausal.data import Data, Signal
-from acausal.errors import DataError, TrainingError, shown
+from acausal.errors import DataError, TrainingError, known_name, listing, shown
 from acausal.simulation import (
     Adaptive,
     Samples,
@@ -66,7 +66,7 @@ def lay_out(
         longest: step in seconds; ``None`` for steps from sample to sample.
         solver: of the steps; ``timing``: the delays of inputs.
         states: whether measured states are laid out, too.
-        measured: whether the data need samples of every target.
+        measured: whether every record needs samples of a target, and every target in some record.
         differentiated: whether a speed that no record has is the rate of a position.
         even: the sample time that all have in common, as of `sample_time`.
 
@@ -75,12 +75,14 @@ def lay_out(
         TrainingError: if an input's delay cannot be trained.
     """
     substeps = 1 if longest is None or even is None else parts(even, longest)
+    if measured:
+        _need_targets(data, targets, system.inputs)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
     present = {n for d in data.values() for n in d.signals}
     rates = _rates(system) if differentiated else {}
     lacking = {n: of for n, of in rates.items() if n not in present}
     rows = [
-        _rows(system, d, g, targets, states, measured, lacking)
+        _rows(system, d, g, targets, states, lacking)
         for d, g in zip(data.values(), grids, strict=True)
     ]
     counts = np.array([len(g.t) for g in grids])
@@ -116,6 +118,20 @@ def lay_out(
     return replace(records, delayed=late), substeps
 
 
+def _need_targets(
+    data: Mapping[str, Data], targets: tuple[str, ...], inputs: Collection[str]
+) -> None:
+    """Refuse targets that no record has, and records that have none."""
+    present = {n: None for d in data.values() for n in d.signals if n not in inputs}
+    for name in targets:
+        known_name(name, present, "The data lack", then=", a target of the training:")
+    for record, d in data.items():
+        if d.signals.keys().isdisjoint(targets):
+            raise DataError(
+                f"'{record}' lacks {listing(targets)}, so there is nothing to compare in it: leave this record out."
+            )
+
+
 def _rates(system: System) -> dict[str, tuple[str, int]]:
     """By state that is the derivative of another one, that other one, and 1 or -1: of speeds the positions."""
     reduced = system.reduced
@@ -143,7 +159,6 @@ def _rows(
     grid: Grid,
     targets: tuple[str, ...],
     states: bool,
-    measured: bool,
     rates: Mapping[str, tuple[str, int]],
 ) -> _RecordRows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
@@ -164,10 +179,7 @@ def _rows(
         return data.signals.get(name, nothing)
 
     x = [state(n) for n in names] or [nothing]
-    if measured:
-        y = data.columns(targets, "a target of the training")
-    else:
-        y = np.stack([data.signals.get(n, nothing) for n in targets], axis=1)
+    y = np.stack([data.signals.get(n, nothing) for n in targets], axis=1)
     return _RecordRows(
         at_rows(y),
         at_rows(np.stack(x, axis=1)),
