@@ -27,7 +27,7 @@ from acausal.networks import (
 )
 from acausal.training.auto.sensitive import is_sensitive
 from acausal.training.auto.step_choice import StepChoice, finer_steps
-from acausal.training.auto.verdict import _doubt
+from acausal.training.auto.verdict import _doubt, _ranges
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
@@ -395,6 +395,19 @@ def test_a_fit_names_a_target_that_comes_late_though_the_law_takes_a_part() -> N
     found = re.search(r"'mass\.v' came (\S+) s late \(train it: delays=", str(fit.verdict))
     assert found is not None
     assert 0.6 * late < float(found[1]) < 1.4 * late
+
+
+def test_a_fit_says_where_all_arguments_of_a_law_were_seen_and_which_hardly_changed() -> None:
+    first = np.linspace(4.0, 40.0, 100)
+    second = np.where(np.arange(100) < 95, 0.6, 1.0)
+    fit: Any = SimpleNamespace(
+        arguments={"h": np.stack([first, second], axis=1), "f": first[:, None]}
+    )
+    assert list(_ranges(fit)) == [
+        "h was seen between 4 and 40, argument 2 between 0.6 and 1 only.",
+        "Argument 2 of h was 0.6 nearly always: what h does at other values is hardly known.",
+        "f was seen between 4 and 40 only.",
+    ]
 
 
 def test_a_law_that_is_not_known_where_it_is_steep_is_said_to_be() -> None:

@@ -30,6 +30,10 @@ LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
 """A law is hardly determined if two of its standard deviations are more than this part of its range, or the second part
 where it is steep, anywhere in what its argument was seen at, rare values apart."""
 
+NEAR, STILL = 0.01, 0.9
+"""An argument of a law hardly changes where more than the second part of its values are within the first part of its
+range about their median."""
+
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
 
@@ -209,8 +213,17 @@ def _constants(fit: TrainedModel) -> Iterator[str]:
 
 
 def _ranges(fit: TrainedModel) -> Iterator[str]:
-    """Between what values laws were seen."""
+    """Between what values laws were seen, and which of several arguments hardly changed."""
     for name, seen in fit.arguments.items():
-        if seen.size and np.isfinite(seen).all():
-            low, high = seen[:, 0].min(), seen[:, 0].max()
-            yield f"{name} was seen between {low:.3g} and {high:.3g} only."
+        if not (seen.size and np.isfinite(seen).all()):
+            continue
+        ends, usual = np.stack([seen.min(axis=0), seen.max(axis=0)]), np.median(seen, axis=0)
+        first, *others = (f"between {low:.3g} and {high:.3g}" for low, high in ends.T)
+        more = (f", argument {i} {between}" for i, between in enumerate(others, 2))
+        yield f"{name} was seen {first}{''.join(more)} only."
+        still = np.mean(np.abs(seen - usual) <= NEAR * np.ptp(ends, axis=0), axis=0) > STILL
+        for i in np.flatnonzero(still) if others else ():
+            yield (
+                f"Argument {i + 1} of {name} was {usual[i]:.3g} nearly always: "
+                f"what {name} does at other values is hardly known."
+            )
