@@ -115,8 +115,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     ):
         others.append(
             f"The model is sensitive: starts that are off by {percent(OFF)} change the targets by "
-            f"{percent(OFF * times)}, so no law follows the whole record. Judge its laws over "
-            "shorter parts (data.between)."
+            f"{percent(OFF * times)}, so even a law that is nearly right may leave the whole record. Judge its "
+            "laws over shorter parts (data.between)."
         )
     elif not steps and not np.isfinite(fit.step_error or 0.0):
         others.append("In steps of half the length the model diverges: take a smaller dt.")
