@@ -101,8 +101,9 @@ class PrescribedPump(PartialTwoPortTransport):
     """A centrifugal pump: ``head = r**2 (c1 + c2 V/r + c3 (V/r)**2)``, ``r = N/N_nominal``, through three points.
 
     ``head = (port_b.p - port_a.p)/(rho g)`` over the flow ``V = m_flow/rho`` is ``head_nominal`` at ``V_flow_nominal``
-    where the speed is ``N_nominal``, and follows the laws of similarity. With ``use_N_in`` the speed is the signal
-    ``N_in`` [1/min]. Choose the points where the pump is made.
+    where the speed is ``N_nominal``, and follows the laws of similarity; below the least of these flows it goes on
+    along its tangent. With ``use_N_in`` the speed is the signal ``N_in`` [1/min]. Choose the points where the pump is
+    made.
     """
 
     ICON = icons.PUMP
@@ -123,18 +124,24 @@ class PrescribedPump(PartialTwoPortTransport):
         r = (self.N_in if self.use_N_in else self.N_const) / self.N_nominal
         yield ac.Eq(self.m_flow, self.rho * self.V_flow)
         yield ac.Eq(-self.dp, self.rho * self.g * self.head)
-        yield ac.Eq(self.head, self._parabola(r))
+        yield ac.Eq(self.head, self._head(r))
 
-    def _parabola(self, r: Any) -> Any:
-        """The head at a relative speed; Lagrange's parabola, with the speed multiplied in so that it may be zero."""
+    def _head(self, r: Any) -> Any:
+        """The head at a relative speed: Lagrange's parabola, with the speed multiplied in so that it may be zero.
+
+        Below the least flow it goes on along its tangent: the parabola would turn, and have a second flow for a head.
+        """
         points = [float(v) for v in self.V_flow_nominal]
         if len(set(points)) != 3 or len(self.head_nominal) != 3:
             raise ac.DeclarationError(
                 "PrescribedPump needs three different V_flow_nominal and as many head_nominal"
             )
+        least = r * min(points)
+        flow, below = ac.maximum(self.V_flow, least), ac.minimum(self.V_flow - least, 0)
         total = 0
         for i, height in enumerate(self.head_nominal):
             others = [v for k, v in enumerate(points) if k != i]
             weight = height / ((points[i] - others[0]) * (points[i] - others[1]))
-            total += weight * (self.V_flow - r * others[0]) * (self.V_flow - r * others[1])
+            total += weight * (flow - r * others[0]) * (flow - r * others[1])
+            total += weight * (2 * least - r * sum(others)) * below
         return total

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import hydraulic as hy
+from acausal.components import blocks, hydraulic as hy
 from acausal.flattening.flat_model import flatten
 
 RHO, G, AREA = 1000.0, 9.80665, 0.01
@@ -143,3 +143,34 @@ def test_an_orifice_lets_flow_pass_in_both_directions():
     assert at[1e4] == -at[-1e4] == pytest.approx(C_D * HOLE * np.sqrt(2 * RHO * 1e4))
     assert at[0.0] == 0
     assert at[1e-3] == pytest.approx(C_D * HOLE * np.sqrt(2 * RHO) * 1e-3, rel=1e-5)
+
+
+class Lift(ac.Component):
+    """A pump that fills a tank through a valve, beside one that is closed."""
+
+    def __init__(self):
+        super().__init__()
+        self.well, self.pump, self.top, self.other = (
+            hy.Boundary(p=0.0),
+            hy.PrescribedPump(),
+            tank(3.0),
+            tank(0.1),
+        )
+        self.open, self.closed = (
+            hy.ValveIncompressible(dp_nominal=1e5, m_flow_nominal=1.0) for _ in range(2)
+        )
+        self.opening = [blocks.Constant(k=k) for k in (1.0, 0.0)]
+        self.connect(self.well.port, self.pump.port_a)
+        self.connect(self.pump.port_b, self.open.port_a, self.closed.port_a)
+        self.connect(self.open.port_b, self.top.port)
+        self.connect(self.closed.port_b, self.other.port)
+        self.connect(self.opening[0].y, self.open.opening)
+        self.connect(self.opening[1].y, self.closed.opening)
+
+
+def test_a_pump_has_one_flow_for_a_head():
+    """The parabola through its points has another one for this head, which is negative."""
+    run = ac.simulate(ac.compile(Lift()), 1e-3)
+    flow, head = float(run["pump.V_flow"][0]), float(run["pump.head"][0])
+    assert 0.001 < flow < 0.0015
+    assert RHO * flow == pytest.approx(np.sqrt((head - 3.0) * RHO * G / 1e5), rel=1e-4)
