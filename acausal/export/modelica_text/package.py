@@ -201,7 +201,7 @@ class ClassWriter:
         if not isinstance(stated, Eq) or not (found := _derivatives(stated)):
             return stated
         for r in [r for side in (stated.lhs, stated.rhs) for r in references(side)]:
-            default = getattr(r.declaration, "default", None)
+            default: Any = getattr(r.declaration, "default", None)
             is_zero = r.owner is self.node and np.ndim(default) == 0 and default == 0
             if is_zero and r.path not in self.node.modifiers:
                 folded = Eq(*(s.xreplace({r: sp.S.Zero}) for s in (stated.lhs, stated.rhs)))
