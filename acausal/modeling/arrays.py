@@ -41,7 +41,7 @@ class Elements(np.ndarray):
 
 
 def elements(shape: tuple[int, ...], symbols: Iterable[Any]) -> Elements:
-    """The array of some symbols, the last index first; it stays as it is."""
+    """The read-only array of some symbols, whose last index changes first."""
     found = np.empty(shape, dtype=object).view(Elements)
     for place, symbol in zip(np.ndindex(shape), symbols, strict=True):
         found[place] = symbol
