@@ -61,24 +61,19 @@ def _independent(
     """Candidates that the constraints determine, as many as there are constraints: those with the least preference.
 
     Arguments:
-        preferences: by candidate, the least first. points: of those that leave the same, the first one decides.
+        preferences: by candidate, the least first.
+        points: the first one decides, or the second where that leaves less; the others where both are singular.
     """
-    candidates, left = [*preferences], list[int]()
-    least, best = sum([*preferences.values()][: len(constraints)]), list[int]()
-    for point in points:
+    candidates, left, found = [*preferences], list[int](), dict[float, list[int]]()
+    least = sum([*preferences.values()][: len(constraints)])
+    for k, point in enumerate(points):
         rows, columns, values = system.jacobian(constraints, point)
         shape = len(constraints), len(system.structure.derivative)
-        chosen, missed = choose_columns(
-            csr_array((values, (rows, columns)), shape=shape), candidates
-        )
-        left = left if best else missed
-        cost = sum(preferences[v] for v in chosen)
-        if not missed and (not best or cost < sum(preferences[v] for v in best)):
-            best = chosen
-            if cost == least:
-                break
-    if best or not constraints:
-        return best
+        chosen, left = choose_columns(csr_array((values, (rows, columns)), shape=shape), candidates)
+        if not left:
+            found.setdefault(sum(preferences[v] for v in chosen), chosen)
+        if found and (k > 0 or least in found):
+            return found[min(found)]
     names = listing(dict.fromkeys(system.describe(constraints[row]) for row in left), 6)
     raise StructureError(
         f"constraints between states repeat or contradict others: {names}. "
