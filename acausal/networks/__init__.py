@@ -50,5 +50,6 @@ from acausal.networks.scaled import (
     inputs_of as inputs_of,
     law_at as law_at,
     law_of as law_of,
+    over_points as over_points,
     rise_of as rise_of,
 )

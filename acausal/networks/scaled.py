@@ -96,15 +96,25 @@ def law_of(network: Callable[..., Array]) -> Callable[..., Array]:
     return network.law if isinstance(network, WithLaw) else network
 
 
+def over_points(
+    law: Callable[..., Array],
+    points: Float[Array | np.ndarray, " points"],
+    rest: Float[Array | np.ndarray, "*points n"],
+) -> Array:
+    """A function over values of its first argument; the others are ``rest``, held or by point."""
+    x, others = jnp.asarray(points), jnp.asarray(rest)
+    others = jnp.broadcast_to(others, (len(x), others.shape[-1]))
+    return jax.vmap(lambda x, others: law(x, *others))(x, others)
+
+
 @compiled
 def law_at(
     network: Callable[..., Array],
     points: Float[Array | np.ndarray, " points"],
-    rest: Float[Array | np.ndarray, " n"],
+    rest: Float[Array | np.ndarray, "*points n"],
 ) -> Float[Array, " points"]:
-    """The law of a network over its first input, the first of several; the other inputs are held at ``rest``."""
-    others = jnp.asarray(rest)
-    found = jax.vmap(lambda x: law_of(network)(x, *others))(jnp.asarray(points))
+    """The law of a network over its first input, the first of several; others are ``rest``, held or by point."""
+    found = over_points(law_of(network), points, rest)
     return found if found.ndim == 1 else found[:, 0]
 
 

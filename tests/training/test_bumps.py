@@ -1,5 +1,6 @@
 """The changes that a confidence allows a law keep what the law promises."""
 
+from dataclasses import replace
 from typing import Any
 
 import equinox as eqx
@@ -39,8 +40,8 @@ class Tanh(eqx.Module):
 def changed(name: str) -> Bumped:
     """A law with bumps of some height."""
     law = bumped_law(LAWS[name](0), SEEN)
-    heights = jnp.asarray(np.random.default_rng(1).normal(size=len(law.centres)))
-    return Bumped(law.net, heights, law.centres, law.width, law.hole, law.mirrored)
+    heights = jnp.asarray(np.random.default_rng(1).normal(size=len(law.heights)))
+    return replace(law, heights=heights, stretched=None)
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -117,3 +118,16 @@ def test_bumps_are_narrow_where_a_law_is_steep() -> None:
     at = np.asarray([float(x[np.argmax(jax.vmap(steep.bumps)(x)[:, k])]) for k in range(len(half))])
     assert min(half) < 0.1 * max(half)
     assert abs(at[np.argmin(half)]) < 0.05
+
+
+def test_bumps_of_several_arguments_are_products_and_few() -> None:
+    seen = np.random.default_rng(0).normal(0.1, 0.4, (500, 5))
+    laws = [bumped_law(ac.networks.Law(secondary=n)(0), seen[:, : n + 1]) for n in range(5)]
+    assert [len(law.beside) for law in laws] == [1, 6, 16, 8, 16]
+    assert all(len(law.heights) == len(law.centres) * len(law.beside) for law in laws)
+    law = bumped_law(ac.networks.Law(secondary=1, odd=True)(0), seen[:, :2])
+    here, there = (law.bumps(jnp.asarray(x), jnp.asarray(0.3)) for x in (0.2, -0.2))
+    np.testing.assert_allclose(there, -here, atol=1e-12)
+    assert np.linalg.matrix_rank(np.reshape(here, (len(law.centres), 6)), 1e-9) == 1
+    still = np.stack([seen[:, 0], np.full(500, 0.6)], axis=1)
+    assert float(bumped_law(laws[1].net, still).widths[0]) > 0.1

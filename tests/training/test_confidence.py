@@ -427,3 +427,40 @@ def test_a_start_that_is_given_beside_a_law_is_not_called_unknown() -> None:
     fit = ac.fit(cell(), data, ["v"], progress=False, x0={"charge": 0.7})
     assert fit.confidence().starts == {}
     assert "starts" not in repr(fit)
+
+
+class Cooled(ac.Component):
+    """A temperature that a fan lowers by an unknown law of both."""
+
+    T = ac.Variable(start=1.0)
+    heat, fan = ac.Input(), ac.Input()
+    law = ac.Module(Law(secondary=1))
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.T), self.heat - self.law(self.T, self.fan))
+
+
+def test_bands_of_a_law_of_two_arguments_hold_the_truth_and_open_at_values_that_were_not_seen():
+    def truth(T: Any, fan: Any) -> Any:
+        return (0.3 + np.sqrt(fan)) * T
+
+    def measured(seed: int, slowest: float) -> ac.Data:
+        rng, t = np.random.default_rng(seed), np.arange(0.0, 60.0, 0.1)
+        heat, fan = (rng.uniform(low, 1.0, 30).repeat(20) for low in (0.1, slowest))
+        T = np.ones_like(t)
+        for k in range(len(t) - 1):  # exact, as the inputs are held
+            rate = truth(1.0, fan[k])
+            T[k + 1] = heat[k] / rate + (T[k] - heat[k] / rate) * np.exp(-0.1 * rate)
+        held = {"heat": "previous", "fan": "previous"}
+        signals = {"heat": heat, "fan": fan, "T": T + 0.01 * rng.standard_normal(len(t))}
+        return ac.Data(t, signals, interpolation=held)
+
+    fit = ac.fit(ac.compile(Cooled()), measured(0, 0.3), ["T"], progress=False)
+    band = fit.confidence().laws["law"]
+    low, high = np.quantile(fit.arguments["law"][:, 0], (0.05, 0.95))
+    seen = (band.x > low) & (band.x < high)
+    miss = np.abs(band.law - truth(band.x, *band.held))[seen]
+    assert np.mean(miss < 3 * band.sigma[seen]) > 0.9
+    within, outside = (fit.predict(measured(1, least))["record"] for least in (0.3, 0.0))
+    assert outside.inside["T"] > 0.9
+    assert outside.bands["T"].sigma.max() > 2 * within.bands["T"].sigma.max()

@@ -158,7 +158,9 @@ def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
 
 def _doubt(fit: TrainedModel, name: str, band: Band) -> str | None:
     """How a law could be quite different, in a sentence; ``None`` for one that is known well."""
-    low, high = np.quantile(fit.arguments[name][:, 0], MOST_SEEN)
+    first, others = np.split(fit.arguments[name], [1], axis=1)
+    near = np.all(np.abs(others - np.asarray(band.held)) <= others.std(axis=0), axis=1)
+    low, high = np.quantile(first[near], MOST_SEEN)
     seen = (band.x >= low) & (band.x <= high)
     size = np.ptp(band.law[seen]) if seen.any() else 0.0
     if not size > 0:

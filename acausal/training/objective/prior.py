@@ -1,7 +1,7 @@
 """The prior of a training: what an earlier one knew about laws and parameters.
 
 It is a normal density about the earlier result, with the covariance of its confidence: of parameters, and of laws as
-functions of their first argument, whatever the networks behind them.
+functions, whatever the networks behind them.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ class LawPrior(eqx.Module):
     """A law as it was, and the bumps by which it may change.
 
     Attributes:
-        points: of its first argument; ``rest``: the others, held fixed.
+        points: of its first argument; ``rest``: of the others.
         values: of the law there.
         heights: gives the heights of the bumps from changes at the points.
     """
 
     points: Float[Array, " points"]
-    rest: Float[Array, " n_rest"]
+    rest: Float[Array, "points n_rest"]
     values: Float[Array, " points"]
     heights: Float[Array, "n_bumps points"]
 

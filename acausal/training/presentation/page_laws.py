@@ -76,7 +76,7 @@ def law_blocks(fit: TrainedModel, name: str, band: Band) -> list[Block]:
     band, seen = band.times(label.factor), fit.seen[name]
     mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
     trusted = (mean - 2 * sigma, mean + 2 * sigma)
-    rest = np.asarray(seen.mean[1:])
+    rest = np.asarray(band.held)
     first = fit.problem.model_params(fit.problem.start())[name]
     curves = [
         Curve("before", band.x, label.factor * np.asarray(law_at(first, band.x, rest)), "before"),
@@ -112,12 +112,8 @@ def law_blocks(fit: TrainedModel, name: str, band: Band) -> list[Block]:
         limits=_informative(curves, trusted),
     )
     if len(rest):
-        return [
-            plot,
-            Text(
-                f"Other arguments of '{name}' are held at their means: {', '.join(f'{v:.4g}' for v in rest)}."
-            ),
-        ]
+        values = ", ".join(f"{v:.4g}" for v in rest)
+        return [plot, Text(f"Other arguments of '{name}' are held near their means: {values}.")]
     return [plot]
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.scipy.special import erf
@@ -15,13 +15,17 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal._jax import array, compiled, numpy_or_jax, traced
-from acausal.networks import EnergyLaw, WithLaw, kept_promises, law_at, law_of, rise_of
+from acausal.networks import EnergyLaw, WithLaw, kept_promises, law_at, law_of, over_points, rise_of
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Network
 
 BUMPS, SIGMAS = 12, 3.0
-"""Bumps of each law, evenly over so many sigmas of its inputs to either side."""
+"""Bumps over the first argument of each law, evenly over so many sigmas to either side."""
 
+BESIDE, ALL, ALIKE = 6, 192, 1e-9
+"""The most bumps over each further argument, and about how many there are in all at most. They are as wide as its own
+size over an argument that changes by less than this part of it.
+"""
 
 STEEP, GRID, MOST = 0.3, 4001, 48
 """A law is steep where it changes by more than this part of its range over the width of a bump. So many points tell,
@@ -49,16 +53,18 @@ class Stretched(eqx.Module):
 
 
 class Bumped(WithLaw):
-    """A network whose law may change by bumps of its first argument, ``F(x) + Σ a_k φ_k(x)``, and keeps its promises.
+    """A network whose law may change by bumps, ``F(x, y) + Σ a_k φ_k(x) ψ_k(y)``, and keeps its promises.
 
-    A bump is ``exp(−(x − c_k)²/2w²)``, with a stretched coordinate in place of x where the law is steep. Where the law
-    is zero at zero it is multiplied with ``1 − exp(−x²/2h²)``; where the law is odd or even, its mirror image is
-    subtracted or added.
+    x is its first argument, and y are the others, if there are any, over each of which ψ is a bump. φ is
+    ``exp(−(x − c_k)²/2w²)``, with a stretched coordinate in place of x where the law is steep. Where the law is zero at
+    zero it is multiplied with ``1 − exp(−x²/2h²)``; where the law is odd or even, its mirror image is subtracted or
+    added.
 
     Attributes:
         net: the network.
-        heights: of the bumps.
-        centres: of the bumps; ``width``: of all.
+        heights: of the bumps, for each centre over x those over y.
+        centres: of the bumps over x; ``width``: of all.
+        beside: centres of the bumps over y; ``widths``: of all, by argument.
         hole: the width h; ``None`` where the law need not be zero at zero.
         mirrored: −1 for an odd law, 1 for an even one, else 0.
         stretched: the coordinate; ``None`` for x itself.
@@ -66,8 +72,10 @@ class Bumped(WithLaw):
 
     net: Network
     heights: Float[Array, " n_bumps"]
-    centres: Float[Array, " n_bumps"]
+    centres: Float[Array, " n_x"]
     width: Float[Array, ""]
+    beside: Float[Array, "n_y n_others"]
+    widths: Float[Array, " n_others"]
     hole: Float[Array, ""] | None = None
     mirrored: int = eqx.field(static=True, default=0)
     stretched: Stretched | None = None
@@ -81,22 +89,31 @@ class Bumped(WithLaw):
     def __call__(self, *inputs: Float[Array, ""]) -> Float[Array, ""]:
         """The law, or the energy whose derivative it is."""
         shapes = self.areas if isinstance(self.net, EnergyLaw) else self.bumps
-        return self.net(*inputs) + jnp.sum(self.heights * shapes(inputs[0]))
+        return self.net(*inputs) + jnp.sum(self.heights * shapes(*inputs))
 
     def law(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The law."""
-        bumps = self.bumps(jnp.asarray(inputs[0]))
+        bumps = self.bumps(*map(jnp.asarray, inputs))
         return law_of(self.net)(*inputs) + jnp.sum(self.heights * bumps)
 
-    def bumps(self, x: Float[Array, ""]) -> Float[Array, " n_bumps"]:
-        """The bumps at x."""
+    def bumps(self, x: Float[Array, ""], *others: Float[Array, ""]) -> Float[Array, " n_bumps"]:
+        """The bumps at x, and at the other arguments."""
         found = self._one_side(x, _bump)
-        return found + self.mirrored * self._one_side(-x, _bump) if self.mirrored else found
+        found = found + self.mirrored * self._one_side(-x, _bump) if self.mirrored else found
+        return self._beside(found, others)
 
-    def areas(self, x: Float[Array, ""]) -> Float[Array, " n_bumps"]:
-        """The energies whose derivatives the bumps are."""
+    def areas(self, x: Float[Array, ""], *others: Float[Array, ""]) -> Float[Array, " n_bumps"]:
+        """The energies whose derivatives by x the bumps are."""
         found = self._one_side(x, _area)
-        return found - self.mirrored * self._one_side(-x, _area) if self.mirrored else found
+        found = found - self.mirrored * self._one_side(-x, _area) if self.mirrored else found
+        return self._beside(found, others)
+
+    def _beside(
+        self, found: Float[Array, " n_x"], others: tuple[Float[Array, ""], ...]
+    ) -> Float[Array, " n_bumps"]:
+        """Products with the bumps over the other arguments."""
+        off = (jnp.asarray(others) - self.beside) / self.widths
+        return jnp.outer(found, jnp.exp(-0.5 * jnp.sum(off**2, axis=1))).ravel()
 
     def _one_side(self, x: Float[Array, ""], shape: Shape) -> Float[Array, " n_bumps"]:
         """A bump less its product with the bump at zero, which is a bump again, or the areas of both."""
@@ -126,7 +143,7 @@ def _area(
 
 
 def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"]) -> Bumped:
-    """A network with bumps of height 0 over the values that its first argument had."""
+    """A network with bumps of height 0 over the values that its arguments had."""
     first, kept = seen[:, 0], kept_promises(network)
     spread = float(first.std()) or 1.0
     centres = first.mean() + spread * np.linspace(-SIGMAS, SIGMAS, BUMPS)
@@ -139,8 +156,24 @@ def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"])
         count = min(int((last - first) / width) + 2, MOST)
         centres = np.linspace(first, last, count)
         width = jnp.asarray(centres[1] - centres[0])
-    heights = jnp.zeros(len(centres))
-    return Bumped(network, heights, jnp.asarray(centres), width, hole, mirrored, stretched)
+    beside, widths = _beside(seen[:, 1:], len(centres))
+    heights, centres, beside, widths = map(
+        jnp.asarray, (np.zeros(len(centres) * len(beside)), centres, beside, widths)
+    )
+    return Bumped(network, heights, centres, width, beside, widths, hole, mirrored, stretched)
+
+
+def _beside(
+    seen: Float[np.ndarray, "n_calls n_others"], count: int
+) -> tuple[Float[np.ndarray, "n_y n_others"], Float[np.ndarray, " n_others"]]:
+    """Centres and widths of bumps over further arguments, beside so many over the first; at least two for each."""
+    most = (ALL / count) ** (1 / max(1, seen.shape[1]))
+    each = int(np.clip(most, 2, BESIDE))
+    spread, size = seen.std(axis=0), np.abs(seen).max(axis=0)
+    spread = np.where(spread > ALIKE * size, spread, np.where(size > 0, size, 1.0))
+    grid = np.linspace(-SIGMAS, SIGMAS, each)
+    steps = np.array([*itertools.product(grid, repeat=seen.shape[1])])
+    return seen.mean(axis=0) + spread * steps, spread * (grid[1] - grid[0])
 
 
 def _stretched(
@@ -167,15 +200,19 @@ def split(bumped: Mapping[str, Bumped], rows: Any) -> tuple[dict[str, Any], Any]
     """By law, the rows of its bumps; and what follows them."""
     found, first = dict[str, Any](), 0
     for name, law in bumped.items():
-        last = first + len(law.centres)
+        last = first + len(law.heights)
         found[name], first = rows[first:last], last
     return found, rows[first:]
 
 
 @compiled
-def bumps_at(law: Bumped, points: Float[ArrayLike, " points"]) -> Float[Array, "points n_bumps"]:
-    """The bumps of a law at some points."""
-    return jax.vmap(law.bumps)(jnp.asarray(points))
+def bumps_at(
+    law: Bumped,
+    points: Float[Array | np.ndarray, " points"],
+    rest: Float[Array | np.ndarray, "*points n_others"],
+) -> Float[Array, "points n_bumps"]:
+    """The bumps of a law at some points; arguments as of `law_at`."""
+    return over_points(law.bumps, points, rest)
 
 
 def with_changes(

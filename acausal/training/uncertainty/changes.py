@@ -98,7 +98,7 @@ def changes(
     """What may change in a trained model; arguments as of `confidence`."""
     params, laws = problem.assemble(trainable), problem.networks
     bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
-    heights = [np.full(len(bumped[n].centres), _size(params[n], seen[n])) for n in laws]
+    heights = [np.full(len(bumped[n].heights), _size(params[n], seen[n])) for n in laws]
     begins = any(a is not None for a in (trainable.starts, trainable.states))
     alone = not (problem.modifiers.names or begins)  # then there is nothing that a law could take
     return Changes(

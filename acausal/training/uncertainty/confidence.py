@@ -41,10 +41,11 @@ class Band:
 
     Attributes:
         x: the argument or the time.
-        law, sigma: mean and standard deviation there; other arguments of a law are held at their mean.
+        law, sigma: mean and standard deviation there.
         sign: of the law where its promises settle it, 1 or −1; else 0. `bounds` are within it.
         limits: the least and the largest value that the law can have, likewise.
         rising: 1 for a law that never falls, −1 for one that never rises, else 0; neither do its `bounds` then.
+        held: other arguments of a law, at values that were seen together, near their mean.
     """
 
     x: Float[np.ndarray, " points"]
@@ -53,6 +54,7 @@ class Band:
     sign: Float[np.ndarray, " points"] | float = 0.0
     limits: tuple[float, float] = (-np.inf, np.inf)
     rising: int = 0
+    held: tuple[float, ...] = ()
 
     @property
     def bounds(self) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
@@ -77,7 +79,9 @@ class Band:
         side = int(np.sign(factor))
         low, high = sorted(factor * limit if factor else 0.0 for limit in self.limits)
         law, sigma = factor * self.law, abs(factor) * self.sigma
-        return Band(self.x, law, sigma, side * self.sign, (low, high), side * self.rising)
+        return Band(
+            self.x, law, sigma, side * self.sign, (low, high), side * self.rising, self.held
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,6 @@
 """Confidence: how well the record determines learned laws and parameters.
 
-A law may change by small bumps over the range of its argument in training; trained parameters may change, too, and so
+A law may change by small bumps over the ranges of its arguments in training; trained parameters may change, too, and so
 may what each record has for itself: a trained initial state, parameters of its own. The sensitivity of the whole
 simulation to all of them gives the Fisher information, whose inverse is their covariance: a Laplace approximation in
 the space of functions, independent of the number of weights of a network. It does not resolve details of a law that are
@@ -362,8 +362,9 @@ def _as_prior(change: Changes, root: Float[np.ndarray, "n n"], alike: float) -> 
     def one(name: str) -> LawPrior:
         bumped = change.bumped[name]
         points = bumped.points(POINTS_EACH * len(bumped.centres))
-        rest = jnp.asarray(change.seen[name][:, 1:].mean(axis=0))
-        heights = np.linalg.pinv(np.asarray(bumps_at(bumped, points)))
+        rest = jnp.tile(bumped.beside, (len(points), 1))
+        points = jnp.repeat(points, len(bumped.beside))
+        heights = np.linalg.pinv(np.asarray(bumps_at(bumped, points, rest)))
         return LawPrior(points, rest, law_at(params[name], points, rest), jnp.asarray(heights))
 
     moved = problem.modifiers
@@ -395,8 +396,10 @@ def _band(
     """A law with its deviation: what the covariance says, or its ``moves`` with starts where these are more."""
     network, bumped = change.params[name], change.bumped[name]
     x = np.asarray(bumped.points(BAND_POINTS))
-    rest = change.seen[name][:, 1:].mean(axis=0)
-    shapes = np.asarray(bumps_at(bumped, x))
+    others = change.seen[name][:, 1:]
+    off = (others - others.mean(axis=0)) / np.asarray(bumped.widths)
+    rest = others[np.argmin(np.sum(off**2, axis=1))]
+    shapes = np.asarray(bumps_at(bumped, x, rest))
     variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
     variance = np.maximum(variance, np.sum((shapes @ moves.T) ** 2, axis=1))
     variance += (shapes @ onward) ** 2
@@ -409,4 +412,5 @@ def _band(
         1.0 if "positive" in kept else sign,
         bounds_of(network),
         int("monotone" in kept),
+        tuple(rest.tolist()),
     )
