@@ -132,7 +132,7 @@ def test_conditions_use_the_inputs():
 
 
 def test_a_dummy_states_fixed_start_sets_the_state():
-    pendulum = Pendulum(x=Start(0.5), y=Start(-0.8, fixed=True))
+    pendulum = Pendulum(x=Start(0.5, state="prefer"), y=Start(-0.8, fixed=True))
     system = ac.compile(pendulum)
     assert system.states[0] == "x"
     np.testing.assert_allclose(system.initial_state()[0], 0.6, atol=1e-6)
