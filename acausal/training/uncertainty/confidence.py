@@ -17,10 +17,7 @@ BAND_POINTS = 201
 """Points of a band over the argument of a law."""
 
 INDISTINGUISHABLE = 0.98
-"""The data can hardly distinguish two parameters with a correlation above this."""
-
-TAKEN = 0.999
-"""A law can take any part of a parameter if the effects of both have a correlation above this."""
+"""The data can hardly distinguish two parameters with a correlation above this, or a parameter from a law."""
 
 CORRELATED = 2.0
 """Residuals are called correlated if more samples than this are worth one independent sample."""
@@ -91,7 +88,8 @@ class Confidence:
     Attributes:
         laws: by network, the law and its standard deviation.
         parameters: by name, the standard deviation of trained parameters, relative to their values; absolute if
-            their change in `Fit.modifiers` is absolute. That of the prior where a law can take any part of it.
+            their change in `Fit.modifiers` is absolute. Laws may change by more here than their bands count, as a
+            prior of their shape says nothing about a parameter.
         correlation: between the parameters, in their order.
         with_laws: by parameter and law, the multiple correlation of what the parameter changes with what the weights
             of the law's network can change: 1 where the law can take any part of the parameter.
@@ -103,6 +101,7 @@ class Confidence:
         step_move: by how many standard deviations the error of the integration's steps moves laws and parameters at
             most; the deviations do not count it.
         about: how well each parameter is known, one sentence each.
+        taken: by parameter that the data do not determine beside laws, the laws that can take any part of it.
         starts: by state whose start is not measured, the laws that can take any part of it; their bands count that,
             ``prior`` does not.
         prior: the same as the prior of a later training, which `acausal.fit` takes from ``prior=fit``.
@@ -118,6 +117,7 @@ class Confidence:
     unexplained: dict[str, float]
     step_move: float
     about: tuple[str, ...]
+    taken: dict[str, tuple[str, ...]]
     starts: dict[str, tuple[str, ...]]
     prior: Prior
 
@@ -144,6 +144,22 @@ class Confidence:
 
     def summary(self) -> list[str]:
         """What all this means, as a list of sentences."""
+        slow = [
+            f"Residuals of '{n}' are correlated over {count:.0f} samples, which count as one here. If the "
+            "model lacks something, it is further off than its deviations say: see fit.residuals()."
+            for n, count in self.alike.items()
+            if count > CORRELATED
+        ]
+        return [
+            *self.about,
+            *self.unknown_parameters(),
+            *self.unknown_starts(self.laws),
+            *slow,
+            *self._ignored(),
+        ]
+
+    def unknown_parameters(self) -> list[str]:
+        """Which parameters the data can hardly tell from others or from laws, a sentence each."""
         names = list(self.parameters)
         confused = [
             f"The data can hardly tell '{names[i]}' from '{names[j]}' (correlation {self.correlation[i, j]:+.3f}): "
@@ -153,26 +169,12 @@ class Confidence:
             if abs(self.correlation[i, j]) > INDISTINGUISHABLE
         ]
         taken = [
-            f"The data can hardly tell '{name}' from the law '{law}' (correlation {min(value, 0.9999):.4f}), which can "
-            "take any part of it: only the two together are known well; fix one, or measure more."
-            for name, laws in self.with_laws.items()
-            for law, value in laws.items()
-            if value > TAKEN
+            f"The data can hardly tell '{name}' from the law '{law}', which can take any part of it: only the two "
+            "together are known well; fix one, or measure more."
+            for name, laws in self.taken.items()
+            for law in laws
         ]
-        slow = [
-            f"Residuals of '{n}' are correlated over {count:.0f} samples, which count as one here. If the "
-            "model lacks something, it is further off than its deviations say: see fit.residuals()."
-            for n, count in self.alike.items()
-            if count > CORRELATED
-        ]
-        return [
-            *self.about,
-            *confused,
-            *taken,
-            *self.unknown_starts(self.laws),
-            *slow,
-            *self._ignored(),
-        ]
+        return [*confused, *taken]
 
     def unknown_starts(self, of: Collection[str]) -> list[str]:
         """Which starts of states the data hardly determine beside some laws, a sentence each."""

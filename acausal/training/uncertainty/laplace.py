@@ -12,7 +12,7 @@ correlated residuals count for less than one each.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -32,7 +32,7 @@ from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.bumps import bumps_at, split
 from acausal.training.uncertainty.changes import Changes, changes
-from acausal.training.uncertainty.confidence import BAND_POINTS, TAKEN, Band, Confidence
+from acausal.training.uncertainty.confidence import BAND_POINTS, INDISTINGUISHABLE, Band, Confidence
 from acausal.training.uncertainty.record_elimination import (
     RecordJacobian,
     move,
@@ -48,7 +48,10 @@ POINTS_EACH = 4
 """Points for each bump at which a later training compares a law with what is known."""
 
 FREE = 10.0
-"""So many of their deviations laws may change to take what a start changes."""
+"""So many of their deviations laws may change to take what a parameter or a start changes."""
+
+TAKEN = 0.5
+"""A law takes a parameter of which then more than this part of its prior deviation is left."""
 
 OPEN = 0.1
 """The smallest part of its prior deviation that is left of a start to be reported,"""
@@ -92,28 +95,29 @@ def confidence(
     step_move = move(blocks, error.ravel())[1]
     rows = _earlier(change)
     earlier = [RecordJacobian(rows[:, change.common], np.zeros((len(rows), len(change.of_record))))]
-    samples = noise.samples + sum(len(b.common) for b in earlier)
+    samples = noise.samples + len(rows)
     alike = float(noise.count @ noise.alike / noise.count.sum())  # over all targets
     found = posterior_covariance([*blocks, *earlier], samples)
     covariance = found.common * np.outer(change.deviations, change.deviations)
-    between = covariance[change.parameters, change.parameters]
+    between = _between(change, effects, rows, noise.samples)
     sigma = np.sqrt(np.diag(between))
     each = np.sqrt([np.diag(c) for c in found.own[: problem.records.count]]) * change.of_record
     with_laws = _with_laws(change, effects)
-    taken = np.array(
-        [any(v > TAKEN for v in laws.values()) for laws in with_laws.values()], dtype=bool
-    )
-    known = np.where(taken, np.maximum(sigma, change.of_parameters), sigma)
     starts = _unknown_starts(change, effects, rows)
     moves = np.stack([np.zeros(len(change.heights)), *(s.move for s in starts.values())])
     places = split(change.bumped, np.arange(len(onward)))[0]
+    known = {
+        n: np.sqrt(np.diag(_between(change, effects, rows, noise.samples, np.r_[own, along])))
+        for (n, own), along in zip(places.items(), change.places_along.values(), strict=True)
+    }
+    taken = _taken(with_laws, known, np.where(sigma > TAKEN * change.of_parameters, sigma, 0.0))
     bands = {
         name: _band(change, name, onward[own], covariance[np.ix_(own, own)], moves[:, own])
         for name, own in places.items()
     }
     return Confidence(
         bands,
-        dict(zip(with_laws, known.tolist(), strict=True)),
+        dict(zip(with_laws, sigma.tolist(), strict=True)),
         between / np.maximum(np.outer(sigma, sigma), 1e-300),
         with_laws,
         {n: each[:, i] for i, n in enumerate(problem.per_record.names)},
@@ -122,6 +126,7 @@ def confidence(
         _unexplained(problem, left),
         step_move,
         _about(change, sigma, taken),
+        taken,
         _taken_by(starts, places, np.diag(covariance)),
         _as_prior(change, found.root / change.deviations, alike),
     )
@@ -144,12 +149,19 @@ def residuals_and_jacobian(
     return np.asarray(left), np.asarray(jacobian)
 
 
-def by_record(change: Changes, effects: Float[np.ndarray, "rows n"]) -> list[RecordJacobian]:
-    """The Jacobian of each record, of that of all rows and targets, one after the other."""
+def by_record(
+    change: Changes,
+    effects: Float[np.ndarray, "rows n"],
+    places: Int[np.ndarray, " n_common"] | None = None,
+) -> list[RecordJacobian]:
+    """The Jacobian of each record, of that of all rows and targets, one after the other.
+
+    ``places`` are those of what all records have in common, unless `Changes.common`.
+    """
+    common = change.common if places is None else places
     ends = len(change.problem.targets) * np.asarray(change.problem.records.first)[1:]
     return [
-        RecordJacobian(part[:, change.common], part[:, change.own])
-        for part in np.split(effects, ends)
+        RecordJacobian(part[:, common], part[:, change.own]) for part in np.split(effects, ends)
     ]
 
 
@@ -234,6 +246,30 @@ def _earlier(change: Changes) -> Float[np.ndarray, "rows n"]:
     return np.asarray(jax.jit(jax.jacfwd(lambda z: prior.misfit(change(z)[1])))(start))
 
 
+def _between(
+    change: Changes,
+    effects: Float[np.ndarray, "rows n"],
+    earlier: Float[np.ndarray, "rows_before n"],
+    samples: float,
+    held: Int[np.ndarray, " n_held"] | slice = slice(0),
+) -> Float[np.ndarray, "n_parameters n_parameters"]:
+    """The covariance of parameters where laws may change freely, but for what is held.
+
+    They can by bumps and along their own weights. They take a parameter's part by all bumps at once: unlikely by the
+    prior of single ones, but nothing speaks against it.
+    """
+    free = np.full(effects.shape[1], FREE)
+    free[change.parameters] = free[change.own] = 1.0
+    free[held] = 0.0
+    places = np.delete(np.arange(len(free)), change.own)
+    before = (earlier * free)[:, places]
+    blocks = by_record(change, effects * free, places)
+    blocks.append(RecordJacobian(before, np.zeros((len(before), len(change.of_record)))))
+    found = posterior_covariance(blocks, samples + len(before)).common
+    found = found[change.parameters, change.parameters]
+    return found * np.outer(change.of_parameters, change.of_parameters)
+
+
 def _with_laws(
     change: Changes, effects: Float[np.ndarray, "rows n"]
 ) -> dict[str, dict[str, float]]:
@@ -246,6 +282,26 @@ def _with_laws(
         }
         for name, place in zip(change.problem.modifiers.names, places, strict=True)
     }
+
+
+def _taken(
+    with_laws: Mapping[str, Mapping[str, float]],
+    known: Mapping[str, Float[np.ndarray, " n_parameters"]],
+    left: Float[np.ndarray, " n_parameters"],
+) -> dict[str, tuple[str, ...]]:
+    """By parameter of which much is ``left``, the laws that can take it, alone or together with other parameters.
+
+    ``known`` is what would be left if a law were known; 0 is left of the other parameters.
+    """
+    found = {
+        name: tuple(
+            law
+            for law, alike in laws.items()
+            if left[i] > 0 and (alike > INDISTINGUISHABLE or known[law][i] < left[i] / 2)
+        )
+        for i, (name, laws) in enumerate(with_laws.items())
+    }
+    return {name: laws for name, laws in found.items() if laws}
 
 
 class _Start(NamedTuple):
@@ -332,7 +388,7 @@ def _taken_by(
 def _about(
     change: Changes,
     sigma: Float[np.ndarray, " n_parameters"],
-    taken: Bool[np.ndarray, " n_parameters"],
+    taken: Collection[str],
 ) -> tuple[str, ...]:
     """How well each parameter is known, one sentence each; `summary` speaks of those that a law can take."""
     problem = change.problem
@@ -348,11 +404,7 @@ def _about(
 
     priors = change.of_parameters.tolist()
     rows = zip(problem.modifiers.names, sigma.tolist(), priors, strict=True)
-    return tuple(
-        one(*row)
-        for row, is_taken in zip(rows, taken, strict=True)
-        if row[0] in at_limit or not is_taken
-    )
+    return tuple(one(*row) for row in rows if row[0] in at_limit or row[0] not in taken)
 
 
 def _as_prior(change: Changes, root: Float[np.ndarray, "n n"], alike: float) -> Prior:
