@@ -509,3 +509,6 @@ def test_parameters_and_a_law_that_have_a_factor_in_common_are_not_called_known(
     sure = fit.confidence()
     assert sure.taken == {"C": ("law",), "G": ("law",)}
     assert min(sure.parameters.values()) > 0.5
+    assert "The data can hardly tell 'G' from the law 'law'" in repr(fit)
+    assert fit.verdict is not None
+    assert not fit.verdict.good

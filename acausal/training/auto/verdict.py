@@ -51,7 +51,7 @@ class Verdict(NamedTuple):
 
     Attributes:
         good: whether it explains the records down to their noise and leaves nothing else, or less than one part in a
-            hundred in all, and they determine its laws.
+            hundred in all, and they determine its laws and parameters.
         loss, noise: over the records, and what their noise alone leaves.
         sentences: what there is to say.
     """
@@ -144,7 +144,7 @@ def explains(problem: Problem, loss: float, noise: float) -> bool:
 
 
 def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
-    """Laws that could be quite different, for all that the records say."""
+    """Laws and parameters that could be quite different, for all that the records say."""
     if fit.settings.get("strategy") != "auto":
         return
     try:
@@ -152,6 +152,7 @@ def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
     except TrainingError:  # derivatives that are not finite, as at events
         return
     doubts = {n: text for n, band in found.laws.items() if (text := _doubt(fit, n, band))}
+    yield from found.unknown_parameters()
     yield from found.unknown_starts(doubts)
     yield from doubts.values()
 
