@@ -34,6 +34,9 @@ class Elements(np.ndarray):
     def __ge__(self, other: Any) -> Any:
         return np.greater_equal(self, other, dtype=object)
 
+    def __contains__(self, one: object) -> bool:
+        return any(one is each for each in self.flat)
+
     def __bool__(self) -> bool:
         raise DeclarationError(
             "Python asks whether an array of variables is true, but their values are not known yet: use ac.where."

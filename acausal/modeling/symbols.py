@@ -361,7 +361,7 @@ def references(expression: sp.Basic) -> Iterator[Reference]:
 def refer(owner: Owner, name: str, declaration: Declaration, shape: tuple[int, ...] | None) -> Any:
     """A reference, or an array of references."""
     references = [Reference(owner, path, declaration) for path in element_names(name, shape)]
-    return references[0] if shape is None else elements(shape, references)
+    return elements(shape, references) if shape else references[0]
 
 
 def each(stated: Iterable[Any]) -> Iterator[Any]:

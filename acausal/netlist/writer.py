@@ -220,8 +220,9 @@ class Writer:
             if vector and not (_is_own(part, value) or _is_inherited(part, name, value)):
                 found[name] = value
         for name, default in arguments_of(cls).items():
-            if name in part._node.constants and part._node.constants[name] != default:
-                found[name] = part._node.constants[name]
+            value = part._node.constants.get(name, default)
+            if _comparable(part, value) != _comparable(part, default):
+                found[name] = value
         return found
 
     def _differences(

@@ -15,9 +15,6 @@ from acausal.structure.rank import choose_columns
 
 DEFAULT = float(STATE_SELECT.index("default"))
 
-FIXED = 0.25
-"""How much more a variable with a fixed start is preferred: less than what a model's author says."""
-
 
 def select_states(system: Equations) -> list[int]:
     """Choose dummy derivatives (Mattsson & Soderlind 1993) and keep the most preferred variables as states.
@@ -94,7 +91,7 @@ def _points(system: Equations) -> list[Point]:
 
 def _preference(
     system: Equations, antecedent: dict[int, int]
-) -> Callable[[int], tuple[float, int]]:
+) -> Callable[[int], tuple[float, int, int]]:
     """How much a node is preferred as a state: by `stateSelect`, then by a fixed start, then by order of declaration.
 
     The variables that it is a derivative of become states with it, so the average along that chain counts; of a node's
@@ -105,12 +102,13 @@ def _preference(
     preference = np.full(len(system.structure.derivative), DEFAULT)
     preference[representative[:n]] = 0.0
     np.maximum.at(preference, representative[:n], system.model.state)
-    preference[np.unique(representative[:n][system.model.fixed])] += FIXED
+    fixed = np.zeros(len(preference), bool)
+    fixed[representative[:n][system.model.fixed]] = True
 
-    def wanted(node: int) -> tuple[float, int]:
+    def wanted(node: int) -> tuple[float, int, int]:
         chain = [node]
         while chain[-1] in antecedent:
             chain.append(antecedent[chain[-1]])
-        return float(preference[chain].mean()), -node
+        return float(preference[chain].mean()), int(fixed[chain].sum()), -node
 
     return wanted

@@ -95,6 +95,19 @@ def test_sides_that_do_not_fit_are_refused(sides, told):
         ac.Eq(*sides(Linear()))
 
 
+def test_an_array_holds_its_elements_and_one_of_no_dimension_is_its_only_one():
+    class One(ac.Component):
+        x = ac.Variable(shape=(), start=1.0, fixed=True)
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), -self.x)
+
+    part = Linear()
+    assert part.x[0] in part.x
+    assert part.b[0] not in part.x
+    assert ac.compile(One()).states == ("x",)
+
+
 def test_an_array_is_neither_true_nor_false():
     with pytest.raises(ac.DeclarationError, match=r"use ac\.where"):
         bool(Linear().x > 0)

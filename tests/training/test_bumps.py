@@ -131,3 +131,12 @@ def test_bumps_of_several_arguments_are_products_and_few() -> None:
     assert np.linalg.matrix_rank(np.reshape(here, (len(law.centres), 6)), 1e-9) == 1
     still = np.stack([seen[:, 0], np.full(500, 0.6)], axis=1)
     assert float(bumped_law(laws[1].net, still).widths[0]) > 0.1
+
+
+def test_an_energy_of_two_arguments_together_stays_odd_and_many_arguments_stay_few_bumps():
+    law = ac.networks.Energy(inputs=2, odd=True)(0)
+    bumped = bumped_law(law, np.random.default_rng(0).normal(size=(50, 2)))
+    assert not np.isfinite(bumped.widths).any()
+    for n, most in ((2, 72), (4, 192), (9, 192)):
+        many = ac.networks.Law(secondary=n - 1)(0)
+        assert len(bumped_law(many, np.random.default_rng(0).normal(size=(50, n))).heights) <= most

@@ -122,7 +122,7 @@ def _need_targets(
     data: Mapping[str, Data], targets: tuple[str, ...], inputs: Collection[str]
 ) -> None:
     """Refuse targets that no record has, and records that have none."""
-    present = {n: None for d in data.values() for n in d.signals if n not in inputs}
+    present = {n: None for d in data.values() for n in d.signals if n not in inputs or n in targets}
     for name in targets:
         known_name(name, present, "The data lack", then=", a target of the training:")
     for record, d in data.items():

@@ -156,7 +156,8 @@ def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"])
         count = min(int((last - first) / width) + 2, MOST)
         centres = np.linspace(first, last, count)
         width = jnp.asarray(centres[1] - centres[0])
-    beside, widths = _beside(seen[:, 1:], len(centres))
+    together = network.inputs - 1 if isinstance(network, EnergyLaw) else 0
+    beside, widths = _beside(seen[:, 1:], len(centres), together)
     heights, centres, beside, widths = map(
         jnp.asarray, (np.zeros(len(centres) * len(beside)), centres, beside, widths)
     )
@@ -164,16 +165,23 @@ def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"])
 
 
 def _beside(
-    seen: Float[np.ndarray, "n_calls n_others"], count: int
+    seen: Float[np.ndarray, "n_calls n_others"], count: int, together: int
 ) -> tuple[Float[np.ndarray, "n_y n_others"], Float[np.ndarray, " n_others"]]:
-    """Centres and widths of bumps over further arguments, beside so many over the first; at least two for each."""
-    most = (ALL / count) ** (1 / max(1, seen.shape[1]))
-    each = int(np.clip(most, 2, BESIDE))
+    """Centres and widths of bumps over further arguments, beside so many over the first; at least two for each.
+
+    Those that a law is a derivative by, `together` with the first, have none, nor have others beyond `ALL`: they are
+    infinitely wide.
+    """
+    n = seen.shape[1]
+    own = np.arange(together, n)[: int(np.log2(max(1.0, ALL / count)))]
+    each = int(np.clip((ALL / count) ** (1 / max(1, len(own))), 2, BESIDE))
     spread, size = seen.std(axis=0), np.abs(seen).max(axis=0)
     spread = np.where(spread > ALIKE * size, spread, np.where(size > 0, size, 1.0))
-    grid = np.linspace(-SIGMAS, SIGMAS, each)
-    steps = np.array([*itertools.product(grid, repeat=seen.shape[1])])
-    return seen.mean(axis=0) + spread * steps, spread * (grid[1] - grid[0])
+    grid, widths = np.linspace(-SIGMAS, SIGMAS, each), np.full(n, np.inf)
+    widths[own] = spread[own] * (grid[1] - grid[0])
+    steps = np.zeros((each ** len(own), n))
+    steps[:, own] = [*itertools.product(grid, repeat=len(own))]
+    return seen.mean(axis=0) + spread * steps, widths
 
 
 def _stretched(
