@@ -332,13 +332,11 @@ class Initializer(LeavesCaches):
             )
         moved = [self.names[i] for i in plan.moved]
         many, few = _counted(len(rest), "condition"), _counted(len(moved), "free state")
-        parts = [
-            f"the initial conditions cannot all hold; not met: {off}",
-            f"{many}, but only {few}" + (f" ({listing(moved, 6)})" if moved else ""),
-            f"{listing(held, 6)} cannot move, being fixed or given",
-        ]
-        if not held:
-            parts[1:] = [] if len(rest) <= len(moved) else parts[1:2]
+        parts = [f"the initial conditions cannot all hold; not met: {off}"]
+        if held or len(rest) > len(moved):
+            parts.append(f"{many}, but only {few}" + (f" ({listing(moved, 6)})" if moved else ""))
+        if held:
+            parts.append(f"{listing(held, 6)} cannot move, being fixed or given")
         fixed = [n for i, n in enumerate(self.names) if n in held and self.conditions.fixed[i]]
         remedy = (
             f"The model does not rest at the fixed {listing(fixed, 6)}: make such starts guesses (fixed=False), or "

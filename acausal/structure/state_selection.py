@@ -34,8 +34,8 @@ def select_states(system: Equations) -> list[int]:
     candidates = [v for v in antecedent if derivative[v] < 0]
     points = _points(system) if constraints else ()
     while constraints:
-        candidates.sort(key=lambda v: wanted(antecedent[v]))
-        preferences = {v: wanted(antecedent[v])[0] for v in candidates}
+        ranks = {v: wanted(antecedent[v]) for v in candidates}
+        preferences = {v: ranks[v][0] for v in sorted(candidates, key=ranks.__getitem__)}
         dummy = _independent(system, constraints, preferences, points)
         dummies.update(dummy)
         constraints = [

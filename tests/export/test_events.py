@@ -223,15 +223,12 @@ def test_conditions_are_event_indicators(fmi: str, tmp_path: Path) -> None:
         values = (c_double * 1)()
         instance.fmu.getEventIndicators(values, 1)
         assert list(values) == [-1.0]
-        update = (
-            instance.fmu.newDiscreteStates if fmi == "2.0" else instance.fmu.updateDiscreteStates
-        )
         instance.fmu.enterEventMode()
         instance.set(["h", "v"], [-1e-15, -2.0])
-        result = update()
+        result = instance.update()
         assert bool(result[3])
         assert instance.get(["v", "n"]) == pytest.approx([1.6, 1.0])
-        update()  # nothing more happens
+        instance.update()  # nothing more happens
         assert instance.get(["v", "n"]) == pytest.approx([1.6, 1.0])
 
 
@@ -241,10 +238,7 @@ def test_known_times_are_time_events(fmi: str, tmp_path: Path) -> None:
     ac.export.fmu(CASES["sampled"].system, path, fmi=fmi)
     fmu = Unpacked(path, fmi)
     with fmu.instance("ModelExchange") as instance:
-        update = (
-            instance.fmu.newDiscreteStates if fmi == "2.0" else instance.fmu.updateDiscreteStates
-        )
-        *_, has_next, following = update()
+        *_, has_next, following = instance.update()
         assert bool(has_next)
         assert following == pytest.approx(0.1)
 
@@ -257,16 +251,13 @@ def test_what_rises_from_zero_at_a_time_event_crosses_zero_after_it(
     ac.export.fmu(CASES["braked"].system, path, fmi=fmi)
     fmu = Unpacked(path, fmi)
     with fmu.instance("ModelExchange") as instance:
-        update = (
-            instance.fmu.newDiscreteStates if fmi == "2.0" else instance.fmu.updateDiscreteStates
-        )
-        update()
+        instance.update()
         values = (c_double * 7)()
         for time, expected in [(1.0, 0), (1.5, 0), (1.51, 1)]:
             instance.fmu.setTime(time)
             if time == 1.5:
                 instance.fmu.enterEventMode()
-                update()
+                instance.update()
                 instance.fmu.enterContinuousTimeMode()
             instance.fmu.getEventIndicators(values, 7)
             assert sum(z > 0 for z in values) == expected

@@ -108,6 +108,11 @@ class Instance:
         put = self.fmu.setReal if self.of.fmi == "2.0" else self.fmu.setFloat64
         put(self.of.of(names), list(values))
 
+    def update(self) -> Any:
+        """Update discrete states, in event mode; what fmpy gives."""
+        made = self.fmu
+        return made.newDiscreteStates() if self.of.fmi == "2.0" else made.updateDiscreteStates()
+
     def jacobian(
         self, unknowns: Sequence[str], knowns: Sequence[str], rows: int, columns: int
     ) -> np.ndarray:

@@ -1,6 +1,7 @@
 """The changes that a confidence allows a law keep what the law promises."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import equinox as eqx
@@ -13,6 +14,7 @@ import acausal as ac
 from acausal.networks import Between, EnergyLaw, Even, Positive, Scaled, bounds_of, kept_promises
 from acausal.training.uncertainty.bumps import Bumped, bumped_law
 from acausal.training.uncertainty.confidence import Band
+from acausal.training.uncertainty.laplace import _band
 
 INF = float("inf")
 SEEN = np.random.default_rng(0).normal(0.1, 0.4, (500, 1))
@@ -140,3 +142,13 @@ def test_an_energy_of_two_arguments_together_stays_odd_and_many_arguments_stay_f
     for n, most in ((2, 72), (4, 192), (9, 192)):
         many = ac.networks.Law(secondary=n - 1)(0)
         assert len(bumped_law(many, np.random.default_rng(0).normal(size=(50, n))).heights) <= most
+
+
+def test_the_band_of_an_energy_is_at_arguments_that_were_seen_near_their_mean():
+    """These have no bumps of their own, and so no width by which nearness could be judged."""
+    law = ac.networks.Energy(inputs=2)(0)
+    seen = np.array([[0.0, 5.0], [1.0, 0.1], [-1.0, -5.0]])
+    bumped = bumped_law(law, seen)
+    change = SimpleNamespace(params={"law": law}, bumped={"law": bumped}, seen={"law": seen})
+    n = len(bumped.heights)
+    assert _band(change, "law", np.zeros(n), np.zeros((n, n)), np.zeros((1, n))).held == (0.1,)

@@ -449,7 +449,8 @@ def _band(
     network, bumped = change.params[name], change.bumped[name]
     x = np.asarray(bumped.points(BAND_POINTS))
     others = change.seen[name][:, 1:]
-    off = (others - others.mean(axis=0)) / np.asarray(bumped.widths)
+    spread = others.std(axis=0)
+    off = (others - others.mean(axis=0)) / np.where(spread > 0, spread, 1.0)
     rest = others[np.argmin(np.sum(off**2, axis=1))]
     shapes = np.asarray(bumps_at(bumped, x, rest))
     variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
