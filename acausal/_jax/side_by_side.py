@@ -74,7 +74,14 @@ def while_any(
 
 def either(condition: Bool[Array, ...], one: State, other: State) -> State:
     """`jnp.where` of the leaves of two pytrees of one form."""
-    return jax.tree.map(partial(jnp.where, condition), one, other)
+    return jax.tree.map(partial(_where, condition), one, other)
+
+
+def _where(condition: Bool[Array, ...], one: Array, other: Array) -> Array:
+    """`jnp.where`, as one operation where nothing need be converted: programs have hundreds of them."""
+    one, other = jnp.asarray(one), jnp.asarray(other)
+    as_it_is = condition.ndim == 0 and one.shape == other.shape and one.dtype == other.dtype
+    return lax.select(condition, one, other) if as_it_is else jnp.where(condition, one, other)
 
 
 def cond_any(

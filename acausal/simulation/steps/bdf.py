@@ -27,7 +27,7 @@ from acausal.simulation.steps.multistep import (
     slopes,
     weights,
 )
-from acausal.simulation.steps.one_step import SMALL, defect, first_step, look_inside
+from acausal.simulation.steps.one_step import SMALL, first_step, look_inside
 from acausal.simulation.steps.problem import Attempt, Counts, Integration, RightHandSide
 
 State = Float[Array, " n_states"]
@@ -186,13 +186,20 @@ class Multistep(eqx.Module):
 
         fixed, begin, length, found = without_derivatives((matrix, t, h, x))
 
-        def size(share: Any) -> Array:  # solved with the matrix, as fast modes would count else
-            _, r = defect(self, problem, inside, begin, length, share)
-            return problem.tolerances.size(
-                self.jacobian.iteration_matrix.solve(fixed, r), x_before, found
-            )
+        def size(off: State) -> Array:  # solved with the matrix, as fast modes would count else
+            change = self.jacobian.iteration_matrix.solve(fixed, off)
+            return problem.tolerances.size(change, x_before, found)
 
-        error, rates, looked = look_inside(problem, error, INSIDE, size, OF_DEFECT, SMALL)
+        error, rates, looked = look_inside(
+            problem,
+            error,
+            (begin, length),
+            lambda at: self.between(inside, begin, length, at),
+            INSIDE,
+            size,
+            OF_DEFECT,
+            SMALL,
+        )
         accepted = error < 1
         dense = StepPolynomial(jnp.concatenate([exact[None], memory.states]), _with_end(s), q)
         solved = m._replace(matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted))

@@ -88,8 +88,10 @@ class Made(NamedTuple):
 def look_inside(
     problem: Integration,
     error: Array,
+    step: tuple[Array, Array],
+    between: Callable[[Array], State],
     points: tuple[float, ...],
-    size: Callable[[Any], Array],
+    size: Callable[[State], Array],
     weight: float,
     below: float,
 ) -> tuple[Array, Array, Array]:
@@ -97,7 +99,9 @@ def look_inside(
 
     Arguments:
         error: of the step, over what is allowed.
-        points: shares of the step. size: the defect at one, over what is allowed.
+        step: the time of its begin, and its length. between: the state that its interpolation has at a time within it.
+        points: shares of the step. size: of a defect, over what is allowed; it is how far the interpolation is from the
+            equations at a point, times the step's length.
         weight: what a defect counts as an error.
         below: the error below which it is small; of a right-hand side that bends, any that is allowed.
 
@@ -105,25 +109,24 @@ def look_inside(
         The error of the step after that, the evaluations that took, and whether the step counts no more.
     """
     looks = error < (1.0 if problem.field.bends else below)
+    begin, length = step
+
+    def one(at: tuple[Array, State, State]) -> Array:
+        t, x, slope = at
+        return size(length * (problem.field(t, x) - slope))
 
     def largest() -> Array:
+        times = begin + jnp.asarray(points, length.dtype) * length
+        slopes = jax.vmap(lambda t: jax.jvp(between, (t,), (jnp.ones_like(t),)))
+        at = times, *slopes(times)
         if problem.field.is_long:
-            return jnp.max(lax.map(size, jnp.asarray(points, error.dtype)))
-        return jnp.max(jnp.stack([size(share) for share in points]))
+            return jnp.max(lax.map(one, at))
+        return jnp.max(jnp.stack([one(each) for each in zip(*at, strict=True)]))
 
     found = lax.cond(looks, largest, lambda: jnp.zeros_like(error))
     found = weight * jnp.where(jnp.isfinite(found), found, jnp.inf)
     found = jnp.maximum(error, found)
     return found, len(points) * looks.astype(jnp.int32), (error < 1) & (found >= 1)
-
-
-def defect(
-    method: Any, problem: Integration, dense: Any, t: Array, h: Array, share: Any
-) -> tuple[Array, State]:
-    """A time within a step, and how far its interpolation is there from the equations, times the step's length."""
-    at = t + share * h
-    y, slope = jax.jvp(lambda s: method.between(dense, t, h, s), (at,), (jnp.ones_like(at),))
-    return at, h * (problem.field(at, y) - slope)
 
 
 class OneStep(eqx.Module):
@@ -170,11 +173,16 @@ class OneStep(eqx.Module):
         fixed, dense = without_derivatives((problem, made.dense))
         begin, length, *ends = lax.stop_gradient((t, h, x, made.x))
 
-        def size(share: Any) -> Array:
-            off = defect(self, fixed, dense, begin, length, share)[1]
-            return fixed.tolerances.size(self.as_state(made, off), *ends)
-
-        error, rates, looked = look_inside(problem, error, INSIDE, size, OF_DEFECT, self.small)
+        error, rates, looked = look_inside(
+            fixed,
+            error,
+            (begin, length),
+            lambda at: self.between(dense, begin, length, at),
+            INSIDE,
+            lambda off: fixed.tolerances.size(self.as_state(made, off), *ends),
+            OF_DEFECT,
+            self.small,
+        )
         accepted = error < 1
         factor = SAFETY * error ** (-1 / self._order)
         least, most = jnp.where(accepted, 1.0, SHORTER), jnp.where(accepted, LONGER, SAFETY)
