@@ -281,7 +281,7 @@ class When:
 
     Attributes:
         conditions: it happens where one of them comes true, whether others hold already or not.
-        statements: ``Eq(discrete variable, expression)`` and `Reinit`.
+        statements: ``Eq(discrete variable, expression)`` and `Reinit`, one by one or in a list.
         otherwise: another `When`, which counts where this one does not happen at the same instant.
     """
 

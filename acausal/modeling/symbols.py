@@ -365,9 +365,9 @@ def refer(owner: Owner, name: str, declaration: Declaration, shape: tuple[int, .
 
 
 def each(stated: Iterable[Any]) -> Iterator[Any]:
-    """Statements one by one, with those of arrays element by element."""
+    """Statements one by one, with those of lists, and those of arrays element by element."""
     for one in stated:
-        if isinstance(one, tuple):
+        if isinstance(one, tuple | list):
             yield from one
         else:
             yield one

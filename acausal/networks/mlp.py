@@ -182,8 +182,9 @@ def uniform(key: Array, shape: tuple[int, ...], limit: float) -> Array:
 
 
 def scaled(inputs: Sequence[ArrayLike], scale: Scale) -> Array:
-    """Inputs over their scales, side by side; in the inputs' own precision."""
+    """Inputs over their scales, side by side; in the inputs' own precision, integers in the default one."""
     stacked = jnp.stack([jnp.asarray(x) for x in inputs])
+    stacked = stacked.astype(jnp.result_type(stacked, float))
     return stacked / (jnp.asarray(scale, stacked.dtype) if isinstance(scale, tuple) else scale)
 
 

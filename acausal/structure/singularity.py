@@ -14,6 +14,8 @@ from acausal.structure.equations import Equations
 
 MOST_LINES = 6
 """Lines of a file that are named."""
+MOST_OTHERS = 5
+"""Other variables that may be the undetermined one are named up to here."""
 
 
 def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]) -> str | None:
@@ -46,6 +48,9 @@ def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]
     related = [origins[e] for e in reached if origins[e] not in surplus]
     if missing:
         parts.append(f"undetermined: {listing(missing)}")
+        others = [system.name(bottoms[i]) for i in found.variables if bottoms[i] not in unmatched]
+        if 0 < len(others) <= MOST_OTHERS and not surplus:
+            parts[-1] += f", or else {listing(others)}"
     if surplus or aliases.redundant:
         redundant = [model.stated_at(c, o) for o, c in (*surplus, *aliases.redundant)]
         parts.append(f"overdetermined; redundant equations: {listing(dict.fromkeys(redundant), 6)}")

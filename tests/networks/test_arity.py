@@ -30,6 +30,16 @@ def test_missing_and_further_inputs_are_refused(network):
             call(0.5, 1.0, 2.0)
 
 
+@pytest.mark.parametrize("spec", [ac.networks.Law, ac.networks.Energy])
+@pytest.mark.parametrize("scale", [0.4, (0.4, 2.5)])
+def test_integers_are_numbers(spec, scale):
+    """A fit scales each input by itself: integer scales would be zero."""
+    network = spec(secondary=1, input_scale=scale, output_scale=2.0)(0)
+    law = getattr(network, "law", network)
+    for call in (network, law):
+        assert call(1, -2) == call(1.0, -2.0) != call(0, 0) == call(0.0, 0.0)
+
+
 @pytest.mark.parametrize("network", NETWORKS)
 def test_a_law_of_several_inputs_is_not_distilled(network):
     with pytest.raises(ac.TrainingError, match=r"^distill: the network is not a law of one vari"):

@@ -180,7 +180,7 @@ class Confidence:
         """Which starts of states the data hardly determine beside some laws, a sentence each."""
         return [
             f"The data hardly determine where '{state}' starts: {listing(laws)} can take any part of that. Say where "
-            f"(x0={{'{state}': ...}}), or measure it from the start."
+            f"(x0={{'{state}': ...}}, or x0='model' for where the model starts), or measure it from the start."
             for state, laws in self.starts.items()
             if not set(of).isdisjoint(laws)
         ]
