@@ -122,6 +122,7 @@ def with_scales(
     inner = network if isinstance(network, MLP) else network.net
     if "activation" in open_:
         inner = _smooth(inner)
+    inner = _spread(inner)
     if isinstance(inner, MLP):
         inner = _unscaled(inner)
     if isinstance(inner, Continued | ContinuedEnergy):
@@ -195,6 +196,21 @@ def _smooth(net: Any) -> Any:
         unscaled = _unscaled(net, SCALES) if isinstance(net, MLP) else net
         return _with(unscaled, activation="tanh")
     return replace(net, net=_smooth(net.net)) if hasattr(net, "net") else net
+
+
+def _spread(net: Any) -> Any:
+    """The same weights, with biases of a monotone network by which neurons of all its hidden layers bend apart.
+
+    Sums with positive weights all rise through zero together: neurons without biases would all saturate outwards alike,
+    and one cannot turn into a law that grows outwards without losing all of them first.
+    """
+    if isinstance(net, Monotone):
+        first, *deeper, last = net.biases
+        sizes = [jnp.sum(jnp.abs(w), axis=1) for w in net.weights[1:-1]]
+        pairs = zip(deeper, sizes, strict=True)
+        apart = (b + size * jnp.linspace(-1, 1, len(b)) for b, size in pairs)
+        return _with(net, biases=(first, *apart, last))
+    return replace(net, net=_spread(net.net)) if hasattr(net, "net") else net
 
 
 def _unscaled(net: MLP, left_open: tuple[str, ...] = ()) -> MLP:

@@ -37,7 +37,7 @@ class Slow(ac.Component):
     def equations(self):
         yield ac.Eq(ac.der(self.x), -self.k * self.x)
         kept = ac.Eq(self.held, ac.pre(self.x))
-        yield ac.When(ac.time > 1, ac.Reinit(self.x, 2 * self.x), kept)
+        yield ac.When(ac.time > 1, [ac.Reinit(self.x, 2 * self.x), kept])
 
 
 def test_a_linear_model_is_written_with_its_matrices():

@@ -659,6 +659,10 @@ class Switch(ac.Component):
             ["1 equations for 2 unknowns", "undetermined: 'y'", "an equation forgotten?"],
         ),
         (
+            lambda: Equations("x y", lambda s: [Eq(der(s.x), -2 * s.y)]),
+            ["1 equations for 2 unknowns", "undetermined: 'y', or else 'x'", "an equation forgotten?"],
+        ),
+        (
             lambda: Equations("x", lambda s: [Eq(der(s.x), 1), Eq(der(s.x), 1)]),
             ["2 equations for 1 unknowns", "Equations: der(x) = 1", "an equation stated twice?"],
         ),

@@ -272,6 +272,17 @@ def test_promises_are_kept_beside_a_linear_law(promises: dict) -> None:
 
 
 @pytest.mark.slow
+def test_a_monotone_law_can_grow_outwards() -> None:
+    """Its neurons bend at different places: they all saturated outwards, and the linear law was the best."""
+    system = ac.compile(Pushed(neural.Resistance(monotone=True)))
+    fit = ac.fit(system, data(), ["mass.s", "mass.v"])
+    assert fit.verdict is not None
+    assert fit.verdict.good
+    for v in (-1.0, 1.0):
+        assert fit.params["damper.net"](v) == pytest.approx(float(law(v)), rel=0.05)
+
+
+@pytest.mark.slow
 def test_a_training_goes_on_bit_for_bit_and_members_share_the_start(tmp_path: Path) -> None:
     chosen = {"checkpoint": tmp_path, "checkpoint_every": 0.0, "epochs": 40}
     train(**chosen, observers=[stop(20)])
