@@ -368,6 +368,6 @@ def each(stated: Iterable[Any]) -> Iterator[Any]:
     """Statements one by one, with those of lists, and those of arrays element by element."""
     for one in stated:
         if isinstance(one, tuple | list):
-            yield from one
+            yield from each(one)
         else:
             yield one
