@@ -205,11 +205,11 @@ def _spread(net: Any) -> Any:
     and one cannot turn into a law that grows outwards without losing all of them first.
     """
     if isinstance(net, Monotone):
-        first, *deeper, last = net.biases
-        sizes = [jnp.sum(jnp.abs(w), axis=1) for w in net.weights[1:-1]]
-        pairs = zip(deeper, sizes, strict=True)
-        apart = (b + size * jnp.linspace(-1, 1, len(b)) for b, size in pairs)
-        return _with(net, biases=(first, *apart, last))
+        biases = list(net.biases)
+        for k, weight in enumerate(net.weights[1:-1], start=1):
+            reach = jnp.sum(jnp.abs(weight), axis=1)
+            biases[k] += reach * jnp.linspace(-1, 1, len(reach))
+        return _with(net, biases=tuple(biases))
     return replace(net, net=_spread(net.net)) if hasattr(net, "net") else net
 
 

@@ -48,7 +48,8 @@ def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]
     related = [origins[e] for e in reached if origins[e] not in surplus]
     if missing:
         parts.append(f"undetermined: {listing(missing)}")
-        others = [system.name(bottoms[i]) for i in found.variables if bottoms[i] not in unmatched]
+        reached_variables = [bottoms[i] for i in (found.variables if found else ())]
+        others = [system.name(v) for v in reached_variables if v not in unmatched]
         if 0 < len(others) <= MOST_OTHERS and not surplus:
             parts[-1] += f", or else {listing(others)}"
     if surplus or aliases.redundant:
