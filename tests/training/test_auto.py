@@ -256,7 +256,8 @@ def test_a_fit_that_is_not_good_says_so() -> None:
 @pytest.mark.parametrize(
     "promises",
     [{}, {"passive": True}, {"odd": True}, {"monotone": True}, {"passive": True, "monotone": True},
-     {"monotone": True, "depth": 0}, {"zero_crossing": "exact"}, {"monotone": True, "start": 1.0}, {"secondary": 1}, {"extrapolation": "linear"}],
+     {"monotone": True, "depth": 0}, {"monotone": True, "start": 1.0}, {"zero_crossing": "exact"}, {"secondary": 1},
+     {"extrapolation": "linear"}],
 )  # fmt: skip
 def test_promises_are_kept_beside_a_linear_law(promises: dict) -> None:
     fresh = Law(**promises)(0)
