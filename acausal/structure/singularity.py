@@ -46,21 +46,21 @@ def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]
     surplus = surplus or [origins[e] for e in unmatched_equations]
     reached += [other for e in unmatched_equations for other in combined.get(e, ())]
     related = [origins[e] for e in reached if origins[e] not in surplus]
+    floating = any(_is_potential(model, node) for node in unmatched)
+    excess = bool(surplus or aliases.redundant)
     if missing:
         parts.append(f"undetermined: {listing(missing)}")
-        reached_variables = [bottoms[i] for i in (found.variables if found else ())]
-        others = [system.name(v) for v in reached_variables if v not in unmatched]
-        if 0 < len(others) <= MOST_OTHERS and not surplus:
+        or_else = [bottoms[i] for i in (found.variables if found else ())]
+        others = [system.name(v) for v in or_else if v not in unmatched]
+        if 0 < len(others) <= MOST_OTHERS and not (excess or floating):
             parts[-1] += f", or else {listing(others)}"
-    if surplus or aliases.redundant:
+    if excess:
         redundant = [model.stated_at(c, o) for o, c in (*surplus, *aliases.redundant)]
         parts.append(f"overdetermined; redundant equations: {listing(dict.fromkeys(redundant), 6)}")
     if related:
         parts.append(
             f"together with: {listing(dict.fromkeys(model.stated_at(c, o) for o, c in related), 6)}"
         )
-    floating = any(_is_potential(model, node) for node in unmatched)
-    excess = bool(surplus or aliases.redundant)
     remedy = (missing and forgotten_equations(model)) or _remedy(bool(missing), excess, floating)
     if is_set := inputs_that_are_set(model, (*surplus, *aliases.redundant)):
         remedy = f"{is_set} {remedy}"
