@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -121,8 +121,8 @@ def with_scales(
     offset = law.offset + sum(s * c for s, c in zip(law.slope, centre, strict=False))
     inner = network if isinstance(network, MLP) else network.net
     if "activation" in open_:
-        inner = _smooth(inner)
-    inner = _spread(inner)
+        inner = _with_layers(inner, _smooth)
+    inner = _with_layers(inner, _spread)
     if isinstance(inner, MLP):
         inner = _unscaled(inner)
     if isinstance(inner, Continued | ContinuedEnergy):
@@ -188,29 +188,34 @@ def _own_start(network: Any) -> Array | None:
     return None
 
 
-def _smooth(net: Any) -> Any:
-    """The same weights with tanh in place of ReLU."""
+def _with_layers(net: Any, change: Callable[[Any], Any]) -> Any:
+    """The same parts around a network of layers that is changed; a convex one stays."""
     if isinstance(net, MLP | Monotone):
-        if net.activation != "relu":
-            return net
-        unscaled = _unscaled(net, SCALES) if isinstance(net, MLP) else net
-        return _with(unscaled, activation="tanh")
-    return replace(net, net=_smooth(net.net)) if hasattr(net, "net") else net
+        return change(net)
+    return replace(net, net=_with_layers(net.net, change)) if hasattr(net, "net") else net
 
 
-def _spread(net: Any) -> Any:
+def _smooth(net: MLP | Monotone) -> MLP | Monotone:
+    """The same weights with tanh in place of ReLU."""
+    if net.activation != "relu":
+        return net
+    unscaled = _unscaled(net, SCALES) if isinstance(net, MLP) else net
+    return _with(unscaled, activation="tanh")
+
+
+def _spread(net: MLP | Monotone) -> MLP | Monotone:
     """The same weights, with biases of a monotone network by which neurons of all its hidden layers bend apart.
 
     Sums with positive weights all rise through zero together: neurons without biases would all saturate outwards alike,
     and one cannot turn into a law that grows outwards without losing all of them first.
     """
-    if isinstance(net, Monotone):
-        biases = list(net.biases)
-        for k, weight in enumerate(net.weights[1:-1], start=1):
-            reach = jnp.sum(jnp.abs(weight), axis=1)
-            biases[k] += reach * jnp.linspace(-1, 1, len(reach))
-        return _with(net, biases=tuple(biases))
-    return replace(net, net=_spread(net.net)) if hasattr(net, "net") else net
+    if isinstance(net, MLP):
+        return net
+    biases = list(net.biases)
+    for k, weight in enumerate(net.weights[1:-1], start=1):
+        reach = jnp.sum(jnp.abs(weight), axis=1)
+        biases[k] += reach * jnp.linspace(-1, 1, len(reach))
+    return _with(net, biases=tuple(biases))
 
 
 def _unscaled(net: MLP, left_open: tuple[str, ...] = ()) -> MLP:
