@@ -77,6 +77,12 @@ Params = Mapping[str, Any] | Packed
 
 LOGGER = logging.getLogger(__name__)
 
+TAKE_A_SYSTEM = (
+    "simulate sweep sliders fit ensemble cross_validate linearize operating_point open_loop estimate observer "
+    "diagram page save"
+).split()
+"""Functions of the package that one may look for among the methods."""
+
 
 def compile(  # noqa: A001 (the field's word; reached as ac.compile)
     model: Component,
@@ -316,7 +322,10 @@ class System(LeavesCaches):
                 raise AttributeError(name)
             if name not in self._top_names:
                 attributes = [n for n in dir(self) if not n.startswith("_")]
-                raise AttributeError(f"A System has no '{name}'; {nearest(name, attributes)}")
+                hint = nearest(name, attributes)
+                if name in TAKE_A_SYSTEM:
+                    hint = f"call ac.{name}(system, ...)."
+                raise AttributeError(f"A System has no '{name}'; {hint}")
             known = (*self.variables, *self.layout.names, *self.layout.module_names)
             return Name(name, (n for n in known if n.startswith(name)))
 

@@ -6,6 +6,7 @@ Linear blocks are solved directly, nonlinear ones by Newton's method, with deriv
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import equinox as eqx
@@ -26,6 +27,9 @@ from acausal.modeling import time
 FEW = 12
 """The most unknowns that are eliminated in array operations; more take XLA too long to compile."""
 
+ROUNDING = 1e-9
+"""What rounding may leave of equations, of the magnitudes of their terms."""
+
 Torn = Callable[[Array], tuple[Sequence[Array], Array]]
 """From tearing variables (m,) to all unknowns of a block, n scalars, and its residuals (m,)."""
 
@@ -36,21 +40,37 @@ def solve_block(
     scale: Float[Array, " m"] | float = 1.0,
     *,
     is_linear: bool = False,
+    may_repeat_itself: bool = False,
 ) -> Float[Array, " n"]:
-    """Unknowns of a block near a guess; NaN where Newton's method does not converge.
+    """Unknowns of a block near a guess; NaN where Newton's method does not converge, or equations contradict.
 
-    Of a block that is affine in its tearing variables, the guess gives only their number.
+    Of a block that is affine in its tearing variables, the guess gives only their number. Its equations may repeat each
+    other, where that is said; then tearing variables that they leave undetermined are zero.
     """
+    invert = partial(_solve, may_be_singular=may_repeat_itself)
 
     def solve(residual: Residual, start: Array) -> Array:
         if is_linear:
             r, jacobian = value_and_jacobian(residual, start, axis=-1)
-            return -_solve(jacobian, r)
+            found = -invert(jacobian, r)
+            return _where_solved(jacobian, found, r) if may_repeat_itself else found
         found, converged = root(Dense(_stacked(block), _solve), start, scale)
         return jnp.where(converged, found, jnp.nan)
 
+    def tangent(linear: Residual, y: Float[Array, " m"]) -> Float[Array, " m"]:
+        """Where a linear function is ``y``: derivatives are those of a root, by the implicit function theorem."""
+        return invert(jax.jacfwd(linear)(jnp.zeros_like(y)), y)
+
     start = jnp.zeros_like(guess) if is_linear else guess
-    return _stacked(block)(jax.lax.custom_root(lambda z: block(z)[1], start, solve, _tangent))[0]
+    return _stacked(block)(jax.lax.custom_root(lambda z: block(z)[1], start, solve, tangent))[0]
+
+
+def _where_solved(
+    a: Float[Array, "m m"], x: Float[Array, " m"], b: Float[Array, " m"]
+) -> Float[Array, " m"]:
+    """``x`` if ``a x + b = 0`` but for rounding, else NaN."""
+    terms = jnp.abs(a) @ jnp.abs(x) + jnp.abs(b)
+    return jnp.where(jnp.all(jnp.abs(a @ x + b) <= ROUNDING * terms), x, jnp.nan)
 
 
 def _stacked(block: Torn) -> Block:
@@ -70,14 +90,13 @@ def nearest(
     return root(Dense(_stacked(block), _solve), guess, scale)[0]
 
 
-def _tangent(linear: Residual, y: Float[Array, " m"]) -> Float[Array, " m"]:
-    """Where a linear function is ``y``: its derivatives are those of a root, by the implicit function theorem."""
-    return _solve(jax.jacfwd(linear)(jnp.zeros_like(y)), y)
-
-
-def _solve(a: Float[Array, "m m"], b: Float[Array, " m"]) -> Float[Array, " m"]:
+def _solve(
+    a: Float[Array, "m m"], b: Float[Array, " m"], *, may_be_singular: bool = False
+) -> Float[Array, " m"]:
     """``a^-1 b``; spelled out for the small sizes where a library call costs more than the arithmetic."""
     match a.shape[0]:
+        case n if may_be_singular and n <= FEW:
+            return eliminate(a, b, may_be_singular)
         case 1:
             return b / a[0]
         case 2:
@@ -102,7 +121,13 @@ def solve_torn_loops(loop: SolveTornLoop, values: Values, arrays: Arrays) -> lis
 
     def one(t: Any, known: Known, guess: Array, scale: Array) -> Array:
         block = lambda tears: _torn(loop, tears, t, known)  # noqa: E731
-        return solve_block(block, guess, scale, is_linear=loop.is_linear)
+        return solve_block(
+            block,
+            guess,
+            scale,
+            is_linear=loop.is_linear,
+            may_repeat_itself=loop.may_repeat_itself,
+        )
 
     scale = jnp.asarray(loop.scale, values.x.dtype)
     return _for_each(loop, values, arrays, one, _guess(loop, values, arrays), scale)

@@ -153,6 +153,7 @@ class _Generator:
             tuple(torn.tears),
             shape.matched,
             shape.is_linear,
+            shape.may_repeat_itself,
             arguments,
             self.reduced.start_guess(tears),
             tuple(map(self._guess, tears.T)),

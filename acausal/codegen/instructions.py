@@ -166,6 +166,8 @@ class SolveTornLoop:
         assigned: in order of computation, an unknown and the expression that gives it.
         tears: the tearing variables, as numbers of unknowns.
         matched: for every unknown an equation of its own that contains it.
+        may_repeat_itself: whether equations of linear loops may come to depend on each other, as two frictions do that
+            lock one motion. Then what they leave undetermined is zero.
         arguments: what the loops read.
         guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
         guessed: for every tearing variable the states that are better guesses of it, if there are any.
@@ -178,6 +180,7 @@ class SolveTornLoop:
     tears: tuple[int, ...]
     matched: tuple[int, ...]
     is_linear: bool
+    may_repeat_itself: bool
     arguments: Arguments
     guess: np.ndarray
     guessed: tuple[Gather | None, ...]

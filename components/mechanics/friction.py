@@ -17,6 +17,9 @@ UNKNOWN, FREE, FORWARD, STUCK, BACKWARD = 3, 2, 1, 0, -1
 AWAKE = 1e-10
 """A contact that starts to slide moves from this speed on; it is beyond what rounding adds to that of a stuck one."""
 
+STARTED = 1e-6
+"""By so much less friction a contact that has started to slide, but does not move yet, locks again: beyond rounding."""
+
 
 class Locking(ac.Component):
     """A contact that slides or is locked; or creeps by a smooth law, with ``smooth``.
@@ -64,15 +67,17 @@ class Moded(Locking):
         goes_on = self._was(FORWARD) | self._was(BACKWARD)
         return goes_on | self.startForward | self.startBackward
 
-    def _gives_way(self, started: Any, friction: Any) -> Any:
+    def _gives_way(self, started: Any, friction: Any, held: Any) -> Any:
         """Whether a stuck contact that is locked, or has ``started`` already, does not hold any more.
 
-        Elsewhere nothing is watched: ``sa`` means something else while the contact slides.
+        Elsewhere nothing is watched: ``sa`` means something else while the contact slides. A contact that has started
+        does not lock again at once where another one holds what it has let go.
 
         Arguments:
-            friction: how far the friction goes beyond what the contact holds.
+            friction: in the direction of sliding. held: what the contact holds.
         """
-        return self._count(STUCK) * (self.locked + started) * friction > 0
+        beyond = friction - (1 - STARTED * started) * held
+        return self._count(STUCK) * (self.locked + started) * beyond > 0
 
     def _goes_forward(self, speed: Any) -> Any:
         """Whether a contact moves forward that slid forward just before, was free, or starts.
@@ -120,8 +125,8 @@ class Contact(Moded):
             static - ac.pre(s) * (static - sliding) for s in (self.startForward, self.startBackward)
         ]
         ahead, back = self._bounds
-        started_forward = self._gives_way(self.startForward, self.sa - to_move[0]) & ahead
-        started_backward = self._gives_way(self.startBackward, -self.sa - to_move[1]) & back
+        started_forward = self._gives_way(self.startForward, self.sa, to_move[0]) & ahead
+        started_backward = self._gives_way(self.startBackward, -self.sa, to_move[1]) & back
         turned_forward = self._count(BACKWARD) * (speed - small) > 0
         turned_backward = self._count(FORWARD) * (-speed - small) > 0
         begins = ac.initial()

@@ -220,7 +220,8 @@ class OneWayClutch(PartialCompliantWithRelativeStates, _Pressed, Locking):
         yield ac.Eq(self.tau0, self._at_rest)
         yield ac.Eq(self.tau0_max, ac.where(self.free, least, peak * self.tau0))
         yield from self._wheel()
-        yield ac.Eq(self.a_rel, (1 - self.locked) * (self.sa - self.tau0_max))
+        moves = 1 - self.locked
+        yield ac.Eq(self.a_rel, ac.where(self.locked, 0, self.sa) - moves * self.tau0_max)
         sliding = ac.where(self.free, 0, self._sliding)
         yield ac.Eq(self.tau, ac.where(self.locked, self.sa, sliding))
         yield ac.Eq(self.lossPower, ac.where(self.stuck, 0, self.tau * self.w_rel))

@@ -194,7 +194,8 @@ class LossyGear(
         losses = self._quadrants(*found)
         yield ac.Eq(self.tauLossMax, ac.where(self.tau_etaPos, losses[0], losses[1]))
         yield ac.Eq(self.tauLossMin, ac.where(self.tau_etaPos, losses[3], losses[2]))
-        yield ac.Eq(self.a_a, (1 - self.locked) * (self.sa - self.tauLoss))
+        moves = 1 - self.locked
+        yield ac.Eq(self.a_a, ac.where(self.locked, 0, self.sa) - moves * self.tauLoss)
         rolling = ac.where(forward, self.tauLossMax, self.tauLossMin)
         yield ac.Eq(self.tauLoss, ac.where(self.locked, self.sa, rolling))
         yield from self._rolls()
@@ -202,8 +203,8 @@ class LossyGear(
     def _rolls(self) -> Iterator[ac.Eq]:
         """When it rolls, and when it starts to."""
         ahead, back = self._goes_forward(self.w_a), self._goes_backward(self.w_a)
-        starts_ahead = self._gives_way(self.startForward, self.sa - self.tauLossMax_p)
-        starts_back = self._gives_way(self.startBackward, self.tauLossMin_m - self.sa)
+        starts_ahead = self._gives_way(self.startForward, self.sa, self.tauLossMax_p)
+        starts_back = self._gives_way(self.startBackward, -self.sa, -self.tauLossMin_m)
         yield ac.Eq(self.startForward, starts_ahead | (ac.initial() & ahead))
         yield ac.Eq(self.startBackward, starts_back | (ac.initial() & back))
         yield ac.Eq(self.locked, ~self._slides)

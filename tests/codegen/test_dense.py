@@ -58,6 +58,15 @@ def test_without_a_root_the_result_is_nan(residual):
     assert np.isnan(found).all()
 
 
+def test_equations_that_contradict_each_other_have_no_solution():
+    def solve(b):
+        twice = plain(lambda z: jnp.ones((2, 2)) @ z - b)
+        return solve_block(twice, jnp.zeros(2), is_linear=True, may_repeat_itself=True)
+
+    np.testing.assert_allclose(solve(jnp.array([3.0, 3.0])), [1.5, 1.5], rtol=1e-12)
+    assert np.isnan(solve(jnp.array([3.0, 3.001]))).all()
+
+
 def test_gradients_of_first_and_second_order():
     def root(p):  # z + exp(z) = p
         return solve_block(plain(lambda z: z + jnp.exp(z) - p), jnp.zeros(1))[0]

@@ -47,6 +47,21 @@ def test_a_singular_matrix_has_no_finite_solution(a):
     assert not np.isfinite(jax.jit(eliminate)(a, np.ones(3))).all()
 
 
+@pytest.mark.parametrize("rank", [1, 3, 4])
+def test_equations_that_repeat_each_other_have_their_least_solution(rank):
+    a, b = equations(4)
+    a = a.at[:, rank:].set(a[:, :1] * 2) * jnp.asarray([[1e6], [1.0], [1e-3], [1.0]])
+    least = jax.jit(lambda a, b: eliminate(a, b, True))
+    np.testing.assert_allclose(least(a, a @ b), np.linalg.pinv(a) @ (a @ b), rtol=1e-9, atol=1e-12)
+    pull = jax.jit(jax.grad(lambda b: jnp.sum(least(a, a @ b))))
+    np.testing.assert_allclose(pull(b), (np.linalg.pinv(a) @ a).sum(0), atol=1e-9)
+
+
+def test_pivots_are_found_in_all_columns():
+    a = jnp.asarray([[0.0, 1.0, 0.0], [0.0, 0.0, 2.0], [0.0, 1.0, 0.0]])
+    np.testing.assert_allclose(eliminate(a, jnp.asarray([3.0, 4.0, 3.0]), True), [0.0, 3.0, 2.0])
+
+
 def test_nan_is_passed_on():
     a, b = equations(4)
     solve, wrong, of_wrong = jax.jit(eliminate), np.array(a), np.array(b)

@@ -114,20 +114,18 @@ def test_states_that_are_large_by_nature(start):
     assert float(ac.simulate(ac.compile(component), (0, 1), dt=0.25).x[-1, 0]) >= 0.9e31
 
 
-@pytest.mark.slow
+class Thresholds(ac.Component):
+    """A threshold behind a square root of what becomes negative."""
+
+    x, y = ac.Variable(start=0.5, fixed=True), ac.Variable(start=0.0, fixed=True)
+    on = ac.Discrete(kind="bool")
+
+    def equations(self):
+        yield Eq(der(self.x), -1)
+        yield Eq(self.on, ac.sqrt(self.x) > 0.5)
+        yield Eq(der(self.y), self.on)
+
+
 def test_conditions_without_a_value_are_no_silent_result() -> None:
-    """Two frictions that lock one shaft: how they share its torque is not determined, and neither ever slides."""
-    made = model(
-        "torque.flange - shaft.flange_a",
-        "shaft.flange_b - left.flange_a",
-        "left.flange_b - right.flange_a",
-        torque=rotational.ConstantTorque(tau_constant=8.0),
-        shaft=rotational.Inertia(J=1.0, phi=ac.Start(0.0, fixed=True), w=ac.Start(0.0, fixed=True)),
-        left=rotational.BearingFriction(tau_pos=[[0.0, 2.0]]),
-        right=rotational.BearingFriction(tau_pos=[[0.0, 3.0]]),
-    )
-    expected = (
-        r"undefined \(nan\) at the end of \d+ steps.* At t = 0 s, .*singular.* lock the same motion"
-    )
-    with pytest.warns(UserWarning, match=expected):
-        ac.simulate(ac.compile(made), 1.0)
+    with pytest.warns(UserWarning, match=r"undefined \(nan\) at the end of \d+ steps"):
+        ac.simulate(ac.compile(Thresholds()), 1.0)
