@@ -78,9 +78,9 @@ Params = Mapping[str, Any] | Packed
 LOGGER = logging.getLogger(__name__)
 
 TAKE_A_SYSTEM = (
-    "simulate sweep sliders fit ensemble cross_validate linearize operating_point open_loop estimate observer "
-    "diagram page save"
-).split()
+    *("simulate", "sweep", "sliders", "fit", "ensemble", "cross_validate", "estimate", "observer"),
+    *("linearize", "operating_point", "open_loop", "diagram", "page", "save"),
+)
 """Functions of the package that one may look for among the methods."""
 
 

@@ -15,7 +15,6 @@ import jax.numpy as jnp
 from jax.custom_derivatives import SymbolicZero
 from jaxtyping import Array, Bool, Float
 
-
 VOID = 500.0
 """Equations that are left with entries below this many roundings, of entries up to 1, follow from the others."""
 

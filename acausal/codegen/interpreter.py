@@ -160,7 +160,9 @@ def rates_from(
     if program.state_rates is None:
         return jnp.zeros_like(values.x)
     found = jnp.broadcast_to(read_elements(program.state_rates, arrays), values.x.shape)
-    return found if (program.rate_signs == 1).all() else found * program.rate_signs
+    found = found.astype(values.x.dtype)  # of a constant as well
+    signs = program.rate_signs
+    return found if (signs == 1).all() else found * jnp.asarray(signs, found.dtype)
 
 
 def _compute(formula: ArrayFormula, values: Values, arrays: Arrays) -> list[Array]:

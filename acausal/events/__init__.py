@@ -13,7 +13,6 @@ from acausal.events.edges import Ahead as Ahead, Edges as Edges
 from acausal.events.event_formulas import Events as Events, generate_events as generate_events
 from acausal.events.event_iteration import (
     ALL_AT_ONCE as ALL_AT_ONCE,
-    COINCIDE as COINCIDE,
     DOUBTED as DOUBTED,
     FORCED as FORCED,
     ONE_BY_ONE as ONE_BY_ONE,
@@ -22,6 +21,7 @@ from acausal.events.event_iteration import (
     Pass as Pass,
     Rates as Rates,
     after_pass as after_pass,
+    coincide as coincide,
     fire as fire,
 )
 from acausal.events.lines import PART_OF_PERIOD as PART_OF_PERIOD

@@ -15,12 +15,12 @@ from acausal.errors import InitializationError, listing
 from acausal.events.event_formulas import Events
 from acausal.events.event_iteration import (
     ALL_AT_ONCE,
-    COINCIDE,
     ONE_BY_ONE,
     PASSES,
     After,
     Pass,
     after_pass,
+    coincide,
     equal,
     fire,
     iterate,
@@ -54,7 +54,7 @@ def _fire_at_start(events: Events, at: Values, differentiable: bool) -> After:
     band, forced = -jnp.ones(events.n_guards, at.x.dtype), None
     if events.timed.any():
         when = due(events, fixed)
-        apart = COINCIDE * jnp.abs(fixed.t)
+        apart = coincide(at.x.dtype) * jnp.abs(fixed.t)
         near = jnp.abs(when.t - fixed.t) <= apart
         band = jnp.where(near, 2 * apart * jnp.abs(when.rate), band)
         forced = (when.rate > 0).astype(at.x.dtype)

@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jax.typing import ArrayLike
+from jax.typing import ArrayLike, DTypeLike
 from jaxtyping import Array, Bool, Float
 
 from acausal._jax import without_derivatives
@@ -41,8 +41,13 @@ As of two ideal diodes in parallel, opposite to each other and without current. 
 with as many iterations more, from 1e-12 to 1e-7.
 """
 
-COINCIDE = 1e-12
-"""Times that differ by less, relative to their size, are the same instant."""
+COINCIDE, ROUNDINGS = 1e-12, 8.0
+"""Times that differ by less, relative to their size or in roundings, are the same instant."""
+
+
+def coincide(dtype: DTypeLike) -> float:
+    """How far times of size 1 may be apart to be the same instant."""
+    return max(COINCIDE, ROUNDINGS * float(jnp.finfo(dtype).eps))
 
 
 class Pass(NamedTuple):
@@ -235,7 +240,8 @@ def once_more(
     g = guards(events, at, before) if numbers is None else numbers
     if numbers is None and events.timed.any():
         # one whose time comes with the event is what it is just behind it
-        behind = jnp.asarray(at.t) + COINCIDE * jnp.abs(at.t)
+        t = jnp.asarray(at.t, g.dtype)
+        behind = t + coincide(t.dtype) * jnp.abs(t)
         there = guards(events, at._replace(t=behind), before, timed=True)
         g = jnp.where(events.timed, there, g)
     as_forced = (jnp.abs(g) <= band) & (k < FORCED)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acausal._jax import compiled, traced
 from acausal.codegen import Values, explain_jump, said_by_modules
 from acausal.errors import SimulationError
-from acausal.events import COINCIDE, Events, guards
+from acausal.events import Events, coincide, guards
 from acausal.simulation.finite import explain_ahead
 from acausal.simulation.inputs import TimeFunction, evaluate
 from acausal.simulation.stability import modes
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 RUN_AWAY = 1e30
 """States larger than this, in units of their nominal values or of their start, have run away."""
 
-APART = 4 * COINCIDE
-"""Instants of a clock that are nearer to each other, relative to the times, count as one event."""
+APART = 4.0
+"""Instants of a clock that are nearer to each other, in units of times that are the same instant, are one event."""
 
 EIGENVALUES = 300
 """Models with more states are not examined: dense Jacobians would not pay."""
@@ -175,13 +175,14 @@ def check_clocks(system: System, start: Values, end: float) -> None:
         return
     period, begin = np.asarray(_periods(events.clocks, start)), float(np.asarray(start.t))
     longest = max(abs(begin), abs(end), end - begin)
-    fast = period < APART * longest
+    least = APART * coincide(start.x.dtype) * longest
+    fast = period < least
     if fast.any():
         i = int(np.argmax(fast))
         clock = events.describe(int(np.flatnonzero(events.ticks)[i]))
         raise SimulationError(
             f"'{clock}' ticks every {float(period[i]):.3g} s, which times up to {longest:g} s cannot "
-            f"tell apart: give a period of {APART * longest:.3g} s or more, or a shorter span of time."
+            f"tell apart: give a period of {least:.3g} s or more, or a shorter span of time."
         )
 
 

@@ -59,6 +59,9 @@ FEWEST, JUMP = 10, 10.0
 POINTS = 500
 """Points that an adaptive simulation saves by default."""
 
+RTOL = {"float64": 1e-6, "float32": 1e-5}
+"""The usual relative tolerance by precision."""
+
 _SIMULATED: WeakSet[System] = WeakSet()
 """Models whose first simulation has begun: the next one finds how to start it compiled already."""
 
@@ -73,7 +76,7 @@ def simulate(
     params: Mapping[str, Any] | None = None,
     x0: Mapping[str, ArrayLike] | ArrayLike | Literal["steady"] | None = None,
     solver: str | solvers.Solver = "auto",
-    rtol: Tolerance = 1e-6,
+    rtol: Tolerance | None = None,
     atol: Tolerance | None = None,
     max_steps: int = 100_000,
     max_step: float | None = None,
@@ -106,6 +109,7 @@ def simulate(
             it goes on with BDF from where stability, and not accuracy, limits the steps: where the model is stiff.
             ``"stiff"`` is implicit from the start: BDF, Kvaerno5 with events, and Kvaerno3 in fixed steps.
         rtol: relative tolerance of an adaptive step, one for all or an array with one each; 0 leaves ``atol`` alone.
+            By default 1e-6, and 1e-5 in single precision, where less is below rounding.
         atol: absolute tolerance of an adaptive step, in the states' units, above 0, one for all or an array; by default
             1e-8, and where all states of a unit stay below 1e-4, 1e-8 of the largest: then the simulation is made
             again. Where JAX traces it, as in `jax.jit` and `jax.grad`, that cannot be seen: give ``atol`` there.
@@ -118,7 +122,7 @@ def simulate(
             and second ones for adaptive steps, which have first ones in both modes without it. Others change
             nothing in adaptive steps.
         dtype: precision of time, states and parameters in the steps, float64 or float32. Single precision takes
-            half the time in large batches; in adaptive steps ``rtol`` should not be below 1e-5.
+            half the time in large batches.
 
     Returns:
         The trajectory, any variable of it by name.
@@ -139,8 +143,9 @@ def simulate(
     if not solvers.is_bdf(solver) and any(map(_has_traced, (params, x0, inputs))):
         system = system.watching()
     n_states = len(system.states)
-    check_tolerances(rtol, ATOL if atol is None else atol, n_states)
     kind = precision(dtype)
+    rtol = RTOL[kind.name] if rtol is None else rtol
+    check_tolerances(rtol, ATOL if atol is None else atol, n_states)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
     max_steps = need_whole(max_steps, "max_steps", DataError, 1)
@@ -306,10 +311,13 @@ def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray
         raise DataError("saveat is empty; give the times to save, or leave it out.")
     if ts.ndim != 1 or np.any(~(np.diff(ts) > 0)):
         raise DataError("saveat does not increase; give times in seconds, one after the other.")
-    outside = ts[~((ts >= start) & (ts <= end))]
+    own = np.asarray(saveat).dtype
+    near = 4 * float(np.finfo(own if own.kind == "f" else float).eps) * max(abs(start), abs(end))
+    inside = np.clip(ts, start, end)  # as sums of steps may be beyond by rounding
+    outside = ts[~(np.abs(ts - inside) <= near)]
     if len(outside):
         raise DataError(f"saveat has {outside[0]:g} s; give times from {start:g} to {end:g} s.")
-    return ts
+    return inside
 
 
 def _check_times(

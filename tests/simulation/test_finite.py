@@ -7,8 +7,7 @@ import jax
 import pytest
 
 import acausal as ac
-from acausal.components import rotational
-from tests.support.parts import Equations, model
+from tests.support.parts import Equations
 
 Eq, der = ac.Eq, ac.der
 

@@ -14,13 +14,13 @@ from acausal.events import (
     ALL_AT_ONCE,
     BAND,
     CLOSE,
-    COINCIDE,
     DOUBTED,
     FORCED,
     ONE_BY_ONE,
     PASSES,
     TRIES,
     Events,
+    coincide,
     guards,
     jumped,
     updated,
@@ -64,14 +64,14 @@ def event_functions(events: Events, vector: ParameterVector) -> dict[str, Callab
     }
 
 
-def constants() -> Iterator[str]:
-    """The limits of event iteration and search, those of `acausal.simulate`."""
+def constants(precision: str) -> Iterator[str]:
+    """The limits of event iteration and search, those of `acausal.simulate` in this precision."""
     reals = {
         "CLOSE": CLOSE,
         "BAND": BAND,
         "NEAR": NEAR,
         "DEADBAND_GROWTH": DEADBAND_GROWTH,
-        "COINCIDE": COINCIDE,
+        "COINCIDE": coincide(precision),
     }
     counts = {
         "TRIES": TRIES,

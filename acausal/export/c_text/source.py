@@ -116,7 +116,7 @@ def _steps(text: ModelText) -> Iterator[str]:
     if found is not None:
         limits = "FLT" if text.precision == "float" else "DBL"
         yield from (f"#define TINY {limits}_MIN", f"#define ROUNDING {limits}_EPSILON")
-        yield from events.constants()
+        yield from events.constants("float32" if text.precision == "float" else "float64")
         yield from events.tables(found)
         yield ""
         for function in events.ARGUMENTS:

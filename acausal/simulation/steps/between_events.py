@@ -11,11 +11,11 @@ from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import cond_any, either, without_derivatives
 from acausal.events import (
-    COINCIDE,
     POINTS,
     After,
     Bracketing,
     Events,
+    coincide,
     fire,
     guards,
     look,
@@ -147,7 +147,7 @@ def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
     if not events.timed.any():
         return stop._replace(band=band)
     largest = jnp.maximum(jnp.abs(t), jnp.abs(t + held.field.shift(t)))
-    apart = COINCIDE * jnp.maximum(largest, span)
+    apart = coincide(t.dtype) * jnp.maximum(largest, span)
     known = lax.stop_gradient(held.field.due(events, t, x))
     # one that is due so soon that it counts as now has happened, unless its condition is still what it was before
     d = held.field.d
@@ -176,7 +176,7 @@ def instant(problem: Integration, state: EventState, t: Array) -> Float[Array, "
     """Within what time conditions at zero are decided by their rates at an event: none, but as one of too many."""
     too_many = _near(problem, state, t) & (state.chattering + 1 >= CHATTERING)
     largest = jnp.maximum(jnp.abs(t), problem.end - problem.begin)
-    return lax.stop_gradient(jnp.where(too_many, COINCIDE * largest, 0.0))
+    return lax.stop_gradient(jnp.where(too_many, coincide(t.dtype) * largest, 0.0))
 
 
 def _near(problem: Integration, state: EventState, t: Array) -> Bool[Array, ""]:

@@ -303,6 +303,8 @@ def _aimed(method: Any, problem: Integration, c: LoopState, kind: Array) -> Aim:
         proposed = lax.stop_gradient(shorter if method.chooses else proposed)
     left = stop.t - c.t
     to_stop = proposed * LEFT >= left
+    if c.events is not None:  # from an end so near by rounding the instant would count as gone
+        to_stop = to_stop | (left - proposed <= problem.apart(stop.t))
     h = jnp.where(to_stop, left, proposed)
     if c.events is not None and not problem.watched.timed.all():
         bracketing = c.events.bracketing

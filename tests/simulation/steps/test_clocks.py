@@ -1,10 +1,16 @@
 """Clocks: `ac.sample`."""
 
+import json
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
 import acausal as ac
 from tests.support.hybrid import Sampled
+from tests.support.paths import ROOT
 
 
 class Clock(ac.Component):
@@ -106,3 +112,59 @@ def test_no_tick_is_lost_in_seconds_of_a_calendar():
         run = ac.simulate(system, (begin, begin + 0.1 * ticks + 0.05))
         assert len(run.events) == ticks
         assert np.allclose(np.diff([e.t for e in run.events]), 0.1, atol=1e-6)
+
+
+class Counted(Clock):
+    """A clock whose ticks are added up."""
+
+    x = ac.Variable(start=0.0, fixed=True)
+
+    def equations(self):
+        yield from super().equations()
+        yield ac.Eq(ac.der(self.x), self.n)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("solver", ["auto", "stiff"])
+def test_clocks_tick_in_single_precision(solver):
+    system = ac.compile(Counted())
+    for period in (0.1, 0.3, 1 / 3, 0.7, 1.0):
+        saved = {"saveat": [4.95 * period, 9.95 * period], "params": {"period": period}}
+        sol = ac.simulate(system, 10 * period, dtype="float32", solver=solver, **saved)
+        np.testing.assert_array_equal(sol["n"], [5, 10])
+        np.testing.assert_allclose(sol["x"], [14.75 * period, 54.5 * period], rtol=1e-5)
+
+
+class Levelled(Clock):
+    """Beside a clock, two levels behind a check valve: their difference becomes zero, but for rounding."""
+
+    first, second = ac.Variable(start=2.0, fixed=True), ac.Variable(start=1.0, fixed=True)
+    valve = ac.Discrete(1, kind="bool")
+
+    def equations(self):
+        yield from super().equations()
+        flow = ac.where(self.valve, 0.5 * (self.first - self.second), 0)
+        yield ac.Eq(self.valve, self.first > self.second)
+        yield ac.Eq(ac.der(self.first), -flow)
+        yield ac.Eq(ac.der(self.second), flow)
+
+
+def ticks_beside_levels() -> list[float]:
+    """How often the clock has ticked in 60 s, by method and the levels' starts."""
+    system, starts = ac.compile(Levelled(period=1.0)), np.linspace(1.5, 2.0, 9)
+    found = [
+        ac.sweep(system, {"first": starts}, 60.5, saveat=[60.5], solver=solver)["n"][:, -1]
+        for solver in ("auto", "stiff")
+    ]
+    return np.concatenate(found).tolist()
+
+
+@pytest.mark.slow
+def test_no_tick_is_lost_where_a_condition_rests_at_its_level():
+    """What rounding makes of such a condition differs by XLA's optimizations: here they are those of a user."""
+    run = "import json; from tests.simulation.steps.test_clocks import *; print(json.dumps(ticks_beside_levels()))"
+    mine = {**os.environ, "XLA_FLAGS": "", "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [sys.executable, "-c", run], env=mine, cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert set(json.loads(done.stdout)) == {61.0}
