@@ -11,11 +11,12 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from acausal.data import like_saved
+from acausal.networks.activations import ACTIVATIONS
 from acausal.networks.energy_parts import BesideQuadratic, WithMinCurvature
 from acausal.networks.extrapolation import Continued, ContinuedEnergy
 from acausal.networks.law_parts import BesideLinear, OffsetCorrected, WithMinSlope, start_at
 from acausal.networks.mlp import MLP
-from acausal.networks.monotone_and_convex import Monotone
+from acausal.networks.monotone_and_convex import Convex, Monotone
 from acausal.networks.promises import kept_promises
 from acausal.networks.scaled import EnergyLaw, Scaled
 
@@ -188,14 +189,17 @@ def _own_start(network: Any) -> Array | None:
     return None
 
 
+Layered = MLP | Monotone | Convex
+
+
 def _with_layers(net: Any, change: Callable[[Any], Any]) -> Any:
-    """The same parts around a network of layers that is changed; a convex one stays."""
-    if isinstance(net, MLP | Monotone):
+    """The same parts around a network of layers that is changed."""
+    if isinstance(net, Layered):
         return change(net)
     return replace(net, net=_with_layers(net.net, change)) if hasattr(net, "net") else net
 
 
-def _smooth(net: MLP | Monotone) -> MLP | Monotone:
+def _smooth(net: Layered) -> Layered:
     """The same weights with tanh in place of ReLU."""
     if net.activation != "relu":
         return net
@@ -203,18 +207,24 @@ def _smooth(net: MLP | Monotone) -> MLP | Monotone:
     return _with(unscaled, activation="tanh")
 
 
-def _spread(net: MLP | Monotone) -> MLP | Monotone:
-    """The same weights, with biases of a monotone network by which neurons of all its hidden layers bend apart.
+def _spread(net: Layered) -> Layered:
+    """The same weights, with biases by which neurons bend apart in deeper layers of a monotone or convex network.
 
     Sums with positive weights all rise through zero together: neurons without biases would all saturate outwards alike,
-    and one cannot turn into a law that grows outwards without losing all of them first.
+    and one cannot turn into a law that grows outwards without losing all of them first. Those of a convex network would
+    all be beyond where they bend, as what they add up is positive.
     """
     if isinstance(net, MLP):
         return net
-    biases = list(net.biases)
+    activation, biases = ACTIVATIONS[net.activation], list(net.biases)
+    before = activation(biases[0])
     for k, weight in enumerate(net.weights[1:-1], start=1):
-        reach = jnp.sum(jnp.abs(weight), axis=1)
+        positive = jnp.abs(weight)
+        reach = jnp.sum(positive, axis=1)
         biases[k] += reach * jnp.linspace(-1, 1, len(reach))
+        before, at_rest = activation(biases[k]), positive @ before
+        if isinstance(net, Convex):
+            biases[k] -= at_rest
     return _with(net, biases=tuple(biases))
 
 

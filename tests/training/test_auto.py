@@ -310,6 +310,33 @@ class Sprung(ac.Component):
         self.connect(self.mass.flange_b, self.push.flange)
 
 
+@pytest.mark.slow
+def test_a_convex_energy_can_bend_away_from_the_linear_law() -> None:
+    """Its neurons bend within the range: they were all beyond it, and the linear law was the best."""
+
+    def hardening(s: Any) -> Any:
+        return 40 * s + 800 * s**3
+
+    t, fine = np.linspace(0.0, 8.0, 801), np.linspace(0.0, 8.0, 800 * 100 + 1)
+    force = 6 * np.sin(6.5 * t + 1) + 4 * np.sin(11 * t)
+    pushed, v, s = np.interp(fine, t, force), np.zeros_like(fine), np.zeros_like(fine)
+    for k, h in enumerate(np.diff(fine)):  # Euler, in fine steps, with the speed behind each
+        v[k + 1] = v[k] + h * (pushed[k] - 0.8 * v[k] - hardening(s[k])) / 0.4
+        s[k + 1] = s[k] + h * v[k + 1]
+    rng = np.random.default_rng(0)
+    measured = {
+        n: y[::100] + 0.01 * y.std() * rng.standard_normal(len(t))
+        for n, y in (("mass.s", s), ("mass.v", v))
+    }
+    system = ac.compile(Sprung(neural.Compliance(energy=True, convex=True)))
+    fit = ac.fit(system, ac.Data(t, {"push.f": force, **measured}), list(measured), progress=False)
+    assert fit.verdict is not None
+    assert fit.verdict.good
+    learned = jax.grad(fit.params["spring.net"])
+    for x in (-0.8 * np.abs(s).max(), 0.8 * np.abs(s).max()):
+        assert learned(x) == pytest.approx(hardening(x), rel=0.05)
+
+
 @pytest.mark.machines
 def test_beginnings_grow_where_no_state_is_measured_and_no_linear_law_explains() -> None:
     def hardening(s: jax.Array) -> jax.Array:
