@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 from unittest.mock import ANY
 
 import jax
@@ -25,6 +25,7 @@ from acausal.networks import (
     linear_shape,
     with_scales,
 )
+from acausal.training.auto.likely_causes import likely_causes
 from acausal.training.auto.sensitive import is_sensitive
 from acausal.training.auto.step_choice import StepChoice, finer_steps
 from acausal.training.auto.verdict import _doubt, _ranges
@@ -409,6 +410,20 @@ def test_a_fit_names_the_parameter_that_what_is_left_looks_like() -> None:
     assert not fit.verdict.good
     assert "mass.m changed by -" in str(fit.verdict)
     assert "modifiers=['mass.m']" in str(fit.verdict)
+
+
+@pytest.mark.slow
+def test_a_sensor_whose_zero_is_off_is_named() -> None:
+    fit = trained()
+    records = fit.problem.records
+    shift = 0.05 * np.ptp(np.asarray(records.y))
+    moved = replace(fit.problem, records=replace(records, y=records.y + shift))
+    shown = SimpleNamespace(problem=moved, trained=fit.trained, arguments=fit.arguments)
+    found = likely_causes(cast(Any, shown))
+    assert found is not None
+    read = re.search(r"mass\.v read (\S+) m/s too high \(check the zero of its sensor\)", found)
+    assert read is not None, found
+    assert float(read[1]) == pytest.approx(shift, rel=0.3)
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""What residuals look like: a parameter that is not what it is taken for, a wrong sign or unit, targets that come late.
+"""What residuals look like: a parameter that is off, a wrong sign, unit or zero of a sensor, targets that come late.
 
 Each such cause moves the predictions in a direction. What was trained has taken a part of that already, as far as it
 can: laws, parameters and starts. So the residuals are compared with the rest of the direction, which is what the cause
@@ -17,20 +17,26 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.errors import listing, percent
-from acausal.training.objective.input_gains import gains, in_words, to_check, with_gain
+from acausal.training.objective.input_gains import (
+    gains,
+    in_words,
+    to_check,
+    with_gain,
+    with_offset,
+)
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.changes import changes
 from acausal.training.uncertainty.laplace import by_record, residuals_and_jacobian
 from acausal.training.uncertainty.record_elimination import untaken
 
-LIKELY = 0.75
+LIKELY = 0.7
 """The residuals look like a cause if they follow it to this part."""
 
 FAR = float(np.log(5))
 """A parameter that is off by a larger factor does not show by small changes."""
 
-MOST = 3
-"""So many causes are named."""
+MOST = 2
+"""So many causes of a kind are named."""
 
 AT_ONCE = 16
 """Parameters whose effects are computed at once."""
@@ -86,6 +92,27 @@ class Gain(Cause):
         return to_check(1 + size)
 
 
+@dataclass(frozen=True, eq=False)
+class Offset(Cause):
+    """An input or a target that counts from another zero; its effect is that of a unit more.
+
+    Attributes:
+        unit: its unit, behind a space, if it has one. sign: -1 where the record reads what its effect takes away.
+    """
+
+    unit: str = ""
+    sign: int = 1
+
+    def sentence(self, size: float) -> str:
+        """How far its zero is off."""
+        high = "high" if self.sign * size > 0 else "low"
+        return f"{self.names[0]} read {abs(size):.2g}{self.unit} too {high}"
+
+    def remedy(self, size: float) -> str:
+        """What to look at."""
+        return "check the zero of its sensor"
+
+
 def likely_causes(fit: TrainedModel) -> str | None:
     """What the residuals of a fit look like, in a sentence; ``None`` if like nothing in particular."""
     problem = fit.problem
@@ -93,7 +120,7 @@ def likely_causes(fit: TrainedModel) -> str | None:
         return None  # a network that is never called takes nothing, and has no place to bump
     change = changes(problem, fit.trained, fit.arguments)
     left, jacobian = residuals_and_jacobian(problem, change)
-    causes = [*_parameters(fit), *_inputs(fit), *_delays(fit)]
+    causes = [*_parameters(fit), *_inputs(fit), *_offsets(fit), *_delays(fit)]
     effects = np.stack([left, *(cause.effect for cause in causes)], axis=-1)
     counts = np.asarray(problem.records.weight) > 0
     size = np.sqrt(np.sum(left**2, axis=0) / np.maximum(np.sum(counts, axis=0), 1))
@@ -112,10 +139,14 @@ def likely_causes(fit: TrainedModel) -> str | None:
         for k in np.argsort(-np.nan_to_num(shares[1:])) + 1
         if shares[k] > LIKELY and abs(sizes[k]) < (cause := causes[k - 1]).far
     }
-    named = list(likely.items())[:MOST]
-    if not named:
+    if not likely:
         return None
-    looks = " or ".join(f"{cause.sentence(size)} ({cause.remedy(size)})" for cause, size in named)
+    kinds = [type(cause) for cause in likely]
+    looks = " or ".join(
+        f"{cause.sentence(size)} ({cause.remedy(size)})"
+        for i, (cause, size) in enumerate(likely.items())
+        if kinds[:i].count(kinds[i]) < MOST
+    )
     return f"What is left looks as if {looks}."
 
 
@@ -151,6 +182,27 @@ def _inputs(fit: TrainedModel) -> Iterator[Cause]:
 
     effects = _effects(predicted, len(columns))
     yield from (Gain((n,), e, np.inf) for n, e in zip(columns, effects, strict=True))
+
+
+def _offsets(fit: TrainedModel) -> Iterator[Cause]:
+    """The targets, and the inputs that are samples."""
+    problem, trainable = fit.problem, fit.trained
+    params, names = problem.assemble(trainable), tuple(gains(problem))
+    known = list(problem.system.inputs)
+    each = np.asarray([[n == other for other in known] for n in names], float)
+    each = jnp.asarray(each.reshape(len(names), len(known)))
+    unit = {n: f" {u}" if (u := problem.unit(n)) else "" for n in (*names, *problem.targets)}
+
+    def predicted(step: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+        return with_offset(problem, step @ each).predict(trainable, params)
+
+    for name, effect in zip(names, _effects(predicted, len(names)), strict=True):
+        yield Offset((name,), effect, np.inf, unit[name], sign=-1)
+    shape = np.shape(problem.records.weight)
+    for i, name in enumerate(problem.targets):
+        effect = np.zeros(shape)
+        effect[:, i] = 1
+        yield Offset((name,), effect, np.inf, unit[name])
 
 
 def _effects(predicted: Callable[[Array], Array], n: int) -> Float[np.ndarray, "n N n_targets"]:

@@ -1,4 +1,4 @@
-"""Records whose inputs are larger, smaller or of the other sign than they say."""
+"""Records whose inputs are larger, smaller or of the other sign than they say, or count from another zero."""
 
 from __future__ import annotations
 
@@ -34,6 +34,13 @@ def with_gain(simulator: S, gain: Float[Array, " n_inputs"]) -> S:
     scaled = jax.tree.map(lambda a: a * gain, replace(samples, functions=()))
     scaled = replace(scaled, functions=samples.functions)
     return eqx.tree_at(lambda s: s.records.steps.inputs, simulator, scaled)
+
+
+def with_offset(simulator: S, offset: Float[Array, " n_inputs"]) -> S:
+    """The same, with these numbers added to the samples of inputs."""
+    samples = simulator.records.steps.inputs
+    moved = replace(samples, start=samples.start + offset, end=samples.end + offset)
+    return eqx.tree_at(lambda s: s.records.steps.inputs, simulator, moved)
 
 
 def in_words(name: str, gain: float) -> str:
