@@ -109,6 +109,8 @@ def test_elements_are_reached_by_their_number() -> None:
 def test_a_wrong_name_is_an_attribute_error_that_helps(system: ac.System) -> None:
     with pytest.raises(AttributeError, match="did you mean 'states'"):
         _ = system.sates
+    with pytest.raises(AttributeError, match=r"no 'simulate'; call ac\.simulate\(system, \.\.\.\)"):
+        _ = system.simulate
     with pytest.raises(AttributeError, match=r"'r\.p' has no 'w'; known are 'v', 'i'"):
         _ = system.r.p.w
     assert not hasattr(system, "_repr_markdown_")

@@ -855,6 +855,13 @@ GALLERY: dict[str, Wrong] = {
         ac.DataError,
         ("x0: 'part.u' is not a state",),
     ),
+    "an initial value of a discrete variable": (
+        lambda: compiled(part=blocks.discrete.ZeroOrderHold(samplePeriod=1)).initial_state(
+            x0={"part.ySample": 1}
+        ),
+        ac.DataError,
+        ("x0: 'part.ySample' is no state but a discrete variable", "ySample=ac.Start(...)"),
+    ),
     "a missing input": (
         lambda: simulated(blocks.FirstOrder(T=1)),
         ac.DataError,

@@ -53,7 +53,7 @@ def eliminate(
     rows = _magnitude(a, 1)
     a, b = a / rows[:, None], b / rows
     columns = _magnitude(a, 0)
-    pivots, last = _factorize(a / columns, VOID * jnp.finfo(a.dtype).eps)
+    pivots, last = _factorize(a / columns, _void(a))
     found = _apply(pivots, last, b) / columns
     repeats = jnp.any(jnp.isinf(jnp.stack([last[0, 0], *(p.row[0] for p in pivots)])))
     return _computed_once(jnp.where(repeats, _least(a, b), found))
@@ -79,7 +79,7 @@ eliminate.defjvp(_derivative, symbolic_zeros=True)
 
 def _least(a: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
     """The least solution of equations that do not contradict each other: it is orthogonal to what they leave open."""
-    factors = _factorize(a @ a.T, VOID * jnp.finfo(a.dtype).eps)
+    factors = _factorize(a @ a.T, _void(a))
     found = a.T @ _apply(*factors, b)
     return found + a.T @ _apply(*factors, b - a @ found)  # products have less digits
 
@@ -111,6 +111,10 @@ def _factorize(a: Float[Array, "n n"], void: float) -> tuple[list[Pivot], Float[
         pivots.append(Pivot(chosen, row, factors, column))
         a = rest[:, 1:] - factors[:, None] * row[1:]
     return pivots, _unless_void(a, void) if void else a
+
+
+def _void(a: Array) -> float:
+    return VOID * float(jnp.finfo(a.dtype).eps)
 
 
 def _unless_void(pivot: Array, void: float) -> Array:

@@ -33,6 +33,7 @@ from acausal.structure import (
     SparseGroup,
     SparseLoop,
     TornLoop,
+    may_repeat_itself,
 )
 
 
@@ -153,7 +154,7 @@ class _Generator:
             tuple(torn.tears),
             shape.matched,
             shape.is_linear,
-            shape.may_repeat_itself,
+            may_repeat_itself(shape),
             arguments,
             self.reduced.start_guess(tears),
             tuple(map(self._guess, tears.T)),

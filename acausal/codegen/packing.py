@@ -66,7 +66,7 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
         return params
     if not isinstance(params, Mapping):
         raise DataError(f"params are numbers and networks by name, not {shown(params)}")
-    params = by_element(params, layout.all_names, "params")
+    params = _by_element(layout, params)
     layout.check_names(params)
     if any(name not in params for name in layout.module_names):
         params = {**default_parameters(layout, as_key(0)), **params}
@@ -90,6 +90,21 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     }
     # one that many components share stands once, at its own place
     return Packed(values, tuple(modules.get(i) for i in range(len(layout.module_of))))
+
+
+def _by_element(layout: ParameterLayout, params: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Parameters, with arrays by their elements, but for those that are folded and given as the zeros they are."""
+    if layout.all_names.issuperset(params):
+        return params
+    model = layout.model
+    folded = {model.layout.parameter(int(i)) for i in np.flatnonzero(model.folded)}
+    found = by_element(params, layout.all_names | folded, "params")
+    zeros = {
+        name
+        for name in folded & (found.keys() - params.keys())
+        if not traced(found[name]) and np.array_equal(found[name], 0)
+    }
+    return {name: value for name, value in found.items() if name not in zeros}
 
 
 def _as_array(given: Sequence[Any], known: Float[np.ndarray, " n_free"]) -> Float[Array, " n_free"]:

@@ -263,6 +263,11 @@ class Initializer(LeavesCaches):
             if name not in own and index is not None:
                 node, sign = self.reduced.resolve(index)
                 places = np.flatnonzero(self.reduced.meant[self.reduced.states] == node).tolist()
+                if node in self.reduced.discrete:
+                    raise DataError(
+                        f"x0: '{name}' is no state but a discrete variable, which events change; give its start where "
+                        f"its component is made: {name.rpartition('.')[2]}=ac.Start(...)"
+                    )
                 state = self.names[places[0]] if places else name
                 value = -value if sign < 0 and is_number(value) else value
             if state not in own:

@@ -24,3 +24,4 @@ from acausal.structure.state_dependence import (
     dependence_pattern as dependence_pattern,
     jacobian_pattern as jacobian_pattern,
 )
+from acausal.structure.switched_loops import may_repeat_itself as may_repeat_itself

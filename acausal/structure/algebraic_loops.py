@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product
-from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -20,9 +18,6 @@ from acausal.structure.rank import singular
 from acausal.structure.tearing import Preference, Torn, tear
 
 ALWAYS = TEAR_SELECT.index("always") - TEAR_SELECT.index("default")
-
-MANY_SWITCHES = 8
-"""With more of them equations are taken to depend on each other in some of their positions."""
 
 
 @dataclass(frozen=True)
@@ -67,43 +62,6 @@ class BlockShape:
             e.template.is_linear(tuple(c for c, v in enumerate(e.variables) if v >= 0))
             for e in self.equations
         )
-
-    @property
-    def may_repeat_itself(self) -> bool:
-        """Whether conditions can void so many terms that equations depend on each other.
-
-        Two frictions that lock one motion both say that it rests, and neither how much of the load it takes.
-        """
-        if not self.is_linear:
-            return False
-        factors = {
-            (row, code): _in_block(e, e.template.partial(column))
-            for row, e in enumerate(self.equations)
-            for column, code in enumerate(e.variables)
-            if code >= 0
-        }
-        switches = sorted(set[sp.Symbol]().union(*map(_voiding, factors.values())), key=str)
-        if len(switches) < 2:
-            return False
-        return len(switches) > MANY_SWITCHES or any(
-            self._repeats(factors, dict(zip(switches, values, strict=True)))
-            for values in product((sp.S.Zero, sp.S.One), repeat=len(switches))
-        )
-
-    def _repeats(
-        self, factors: Mapping[tuple[int, int], sp.Expr], switched: Mapping[sp.Symbol, sp.Number]
-    ) -> bool:
-        """Whether equations depend on each other with switches in these positions, and any other numbers."""
-        some = np.random.default_rng(0)
-        numbers = dict(switched)
-        for symbol in sorted(
-            set[Any]().union(*(f.free_symbols for f in factors.values())), key=str
-        ):
-            numbers.setdefault(symbol, sp.Float(some.uniform(0.5, 2.0)))
-        values = {place: factor.xreplace(numbers) for place, factor in factors.items()}
-        known = {place: float(v) if v.is_number else 1.0 for place, v in values.items()}
-        rows, columns = zip(*known, strict=True)
-        return singular(rows, columns, list(known.values()), self.n_unknowns)
 
     @property
     def is_periodic(self) -> bool:
@@ -227,31 +185,6 @@ def torn_block(system: Equations, blocks: Sequence[Block]) -> Torn:
         return Preference(rank, rank == ALWAYS, guessed, unknown in nonlinear)
 
     return tear(incidence, solvable, len(ranks), preference)
-
-
-def _in_block(equation: BlockEquation, factor: sp.Expr) -> sp.Expr:
-    """A factor with its slots named by what they read in the block."""
-    template = equation.template
-    tables = (
-        ("v", template.variables, equation.variables),
-        ("p", template.parameters, equation.parameters),
-    )
-    return factor.xreplace(
-        {
-            slot: sp.Symbol(f"{kind}{code}")
-            for kind, slots, codes in tables
-            for slot, code in zip(slots, codes, strict=True)
-        }
-    )
-
-
-def _voiding(factor: sp.Expr) -> set[sp.Symbol]:
-    """What decides whether a factor is zero."""
-    found: set[sp.Symbol] = set()
-    for cases in factor.atoms(sp.Piecewise):
-        if any(value == 0 for value, _ in cases.args):
-            found.update(*(condition.free_symbols for _, condition in cases.args))
-    return found
 
 
 def _hint(system: Equations, block: Block) -> str:

@@ -48,6 +48,15 @@ def test_a_linear_model_is_written_with_its_matrices():
     np.testing.assert_allclose(run["above"][-1], np.where(x > 0.1, np.exp(x), 0), atol=1e-8)
 
 
+def test_a_matrix_is_given_by_its_name_though_an_entry_is_folded():
+    system = ac.compile(Linear())  # A[1,1] is zero, and no parameter
+    other = [[0.0, 1.0], [-9.0, -0.2]]
+    run = ac.simulate(system, 2.0, params={"A": other}, inputs={"u": 0.0}, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(run["x"][-1], expm(2 * np.array(other)) @ [1, 0], atol=1e-7)
+    with pytest.raises(ac.DataError, match=r"^params: 'A\[1,1\]' was left at its default of zero"):
+        system.pack({"A": [[0.5, 1.0], [-9.0, -0.2]]})
+
+
 def test_jumps_and_discrete_equations_of_vectors():
     run = ac.simulate(ac.compile(Slow()), 2.0, rtol=1e-9, atol=1e-12)
     at_event = np.exp(-0.5) * np.array([1.0, 2.0, 3.0])
