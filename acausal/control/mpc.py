@@ -137,7 +137,7 @@ def mpc(
     solver = program(
         model, goals, order, len(system.states), float(dt), steps, method, max_iterations
     )
-    return MPC(system, float(dt), steps, goals, given, solver)
+    return MPC(system, params, float(dt), steps, goals, given, solver)
 
 
 class MPC:
@@ -146,20 +146,22 @@ class MPC:
     It remembers its last plan, from which the next one starts: `reset` forgets it.
 
     Attributes:
-        system, dt, steps, goals: of the model and the horizon.
+        system, params, dt, steps, goals: of the model and the horizon.
         given: names of the inputs that it does not decide.
     """
 
     def __init__(
         self,
         system: System,
+        params: Mapping[str, Any] | None,
         dt: float,
         steps: int,
         goals: Goals,
         given: tuple[str, ...],
         solver: NonlinearProgram,
     ) -> None:
-        self.system, self.dt, self.steps, self.goals, self.given = system, dt, steps, goals, given
+        self.system, self.params, self.dt, self.steps = system, params, dt, steps
+        self.goals, self.given = goals, given
         self._program = solver
         self.reset()
 
@@ -255,7 +257,7 @@ class MPC:
             until: the end [s]; the loop starts at 0.
             x0: the plant's states at the start; by default its own.
             reference, inputs: as in `step`, numbers or functions of time.
-            params: of the plant.
+            params: of the plant; by default its own, and those of the controller where the plant is its model.
             observe: further variables of the plant for the record.
 
         Raises:
@@ -266,6 +268,8 @@ class MPC:
         if not is_number(until) or not 0 < float(until) < np.inf:
             raise DataError(f"MPC.run: until={shown(until)} is not a time; give seconds.")
         self.reset()
+        if params is None and plant is self.system:
+            params = self.params
         lacking = [n for n in self.system.states if n not in plant.variables]
         lacking += [n for n in self.system.inputs if n not in plant.inputs]
         if lacking:

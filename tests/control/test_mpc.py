@@ -61,6 +61,19 @@ def test_without_limits_it_is_the_regulator_of_riccati(method: str) -> None:
     assert again.first["push.f"] == pytest.approx(plan.first["push.f"], rel=1e-5)
 
 
+def test_the_plant_has_the_parameters_of_the_controller_where_it_is_its_model() -> None:
+    heavy = {"mass.m": 5.0}
+    goals = {"track": {"mass.s": 1.0}, "effort": {"push.f": 1e-3}}
+    controller = ac.control.mpc(cart(), dt=DT, steps=4, params=heavy, **goals)
+    start = {"x0": {"mass.s": 1.0, "mass.v": 0.0}, "inputs": {"wind.f": 0.0}}
+    same, heavier, own = (
+        np.asarray(controller.run(cart(), 0.5, **start, **given)["mass.s"])
+        for given in ({}, {"params": heavy}, {"params": {}})
+    )
+    np.testing.assert_array_equal(same, heavier)
+    assert np.abs(same - own).max() > 1e-3
+
+
 def test_limits_hold_and_a_wind_that_is_known_is_met() -> None:
     controller = ac.control.mpc(
         cart(),

@@ -58,6 +58,19 @@ class Slipping(ac.Component):
         self.connect(self.shaft.flange_b, self.friction.flange_a)
 
 
+class Held(ac.Component):
+    """A shaft that is driven against two frictions, which lock its one motion."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        rest = ac.Start(0.0, fixed=True)
+        self.shaft, self.push = rot.Inertia(J=0.5, phi=rest, w=rest), rot.Torque()
+        self.first, self.second = (rot.BearingFriction(tau_pos=[[0.0, tau]]) for tau in (0.4, 0.7))
+        self.connect(self.push.flange, self.shaft.flange_a)
+        self.connect(self.shaft.flange_b, self.first.flange_a)
+        self.connect(self.first.flange_b, self.second.flange_a)
+
+
 @dataclass(frozen=True)
 class Case:
     """A model, and how it is driven.
@@ -109,11 +122,12 @@ CASES = {
     "braked": Case(Braked, 3.0, 0.05),
     "relay": Case(Relay, 6.0, 0.05, "rk4", (("level", np.sin),)),
     "slipping": Case(Slipping, 6.0, 0.05, "rk4", (("push.tau", lambda t: 2 * np.sin(2 * t)),)),
+    "held": Case(Held, 6.0, 0.05, "rk4", (("push.tau", lambda t: 2 * np.sin(2 * t)),)),
 }
 
 
 @pytest.mark.cases(fast=2)
-@pytest.mark.parametrize("name", some_slow(CASES, ["ball, implicit", "slipping"]))
+@pytest.mark.parametrize("name", some_slow(CASES, ["ball, implicit", "slipping", "held"]))
 def test_steps_in_c_are_those_of_simulate(name: str, tmp_path: Path) -> None:
     case = CASES[name]
     model = ExportedC(case.system, tmp_path, solver=case.solver)
