@@ -27,8 +27,8 @@ from acausal.modeling import time
 FEW = 12
 """The most unknowns that are eliminated in array operations; more take XLA too long to compile."""
 
-ROUNDING = 1e-9
-"""What rounding may leave of equations, of the magnitudes of their terms."""
+REST, ROUNDINGS = 1e-9, 1e3
+"""What rounding may leave of equations, of the magnitudes of their terms, or in roundings of them."""
 
 Torn = Callable[[Array], tuple[Sequence[Array], Array]]
 """From tearing variables (m,) to all unknowns of a block, n scalars, and its residuals (m,)."""
@@ -45,7 +45,7 @@ def solve_block(
     """Unknowns of a block near a guess; NaN where Newton's method does not converge, or equations contradict.
 
     Of a block that is affine in its tearing variables, the guess gives only their number. Its equations may repeat each
-    other, where that is said; then tearing variables that they leave undetermined are zero.
+    other, where that is said; of what they leave undetermined the least is taken.
     """
     invert = partial(_solve, may_be_singular=may_repeat_itself)
 
@@ -69,8 +69,9 @@ def _where_solved(
     a: Float[Array, "m m"], x: Float[Array, " m"], b: Float[Array, " m"]
 ) -> Float[Array, " m"]:
     """``x`` if ``a x + b = 0`` but for rounding, else NaN."""
+    rest = max(REST, ROUNDINGS * float(jnp.finfo(a.dtype).eps))
     terms = jnp.abs(a) @ jnp.abs(x) + jnp.abs(b)
-    return jnp.where(jnp.all(jnp.abs(a @ x + b) <= ROUNDING * terms), x, jnp.nan)
+    return jnp.where(jnp.all(jnp.abs(a @ x + b) <= rest * terms), x, jnp.nan)
 
 
 def _stacked(block: Torn) -> Block:

@@ -167,7 +167,7 @@ class SolveTornLoop:
         tears: the tearing variables, as numbers of unknowns.
         matched: for every unknown an equation of its own that contains it.
         may_repeat_itself: whether equations of linear loops may come to depend on each other, as two frictions do that
-            lock one motion. Then what they leave undetermined is zero.
+            lock one motion. Then the least of the solutions is taken.
         arguments: what the loops read.
         guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
         guessed: for every tearing variable the states that are better guesses of it, if there are any.
