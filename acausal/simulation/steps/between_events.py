@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
@@ -14,7 +15,6 @@ from acausal.events import (
     POINTS,
     After,
     Bracketing,
-    Events,
     coincide,
     fire,
     guards,
@@ -51,8 +51,15 @@ NEAR = 1e-10
 LESS = 0.3
 """Of a step in whose change of a condition nobody believes: the next one's length."""
 
+GOLDEN = 0.618
+"""Of the numbers of states: their parts beyond whole numbers are as if drawn by chance."""
+
 DEADBAND_GROWTH = 10.0
 """So many times farther must a condition's number go after an event that changed nothing."""
+
+QUIET, ROUNDINGS = 1e-9, 1e3
+"""Of a condition's largest number, or in roundings of its terms: it has been no farther from zero between two of its
+events, so that rounding and the errors of steps have made them."""
 
 
 class EventState(NamedTuple):
@@ -63,8 +70,10 @@ class EventState(NamedTuple):
         chattering: how many of the last events followed the one before at once. last: the time of the last event.
         bracketing: for the instant of the next.
         deadband: how far beyond zero a condition's number must be to count: more than zero where rounding and the
-            errors of steps have made an event that changed nothing.
+            errors of steps have made an event.
         peeked: whether this step is a shorter one, up to where a condition seemed to change and to change back.
+        reach: how far every condition's number has been from zero since its last event.
+        largest: and ever; at least what makes the roundings of its terms count as quiet.
     """
 
     d: Float[Array, " n_discrete"]
@@ -74,6 +83,8 @@ class EventState(NamedTuple):
     bracketing: Bracketing
     deadband: Float[Array, " n_guards"]
     peeked: Bool[Array, ""]
+    reach: Float[Array, " n_guards"]
+    largest: Float[Array, " n_guards"]
 
 
 class Stop(NamedTuple):
@@ -104,6 +115,7 @@ class EventsInStep(NamedTuple):
         doubted: whether the step is made shorter before its change of a condition is believed.
         part: the part of its length that it is made again with, where no search for an instant has begun; 1: none.
         undefined: whether a condition's number is NaN at its end.
+        sizes: of the conditions' numbers within it, at most.
     """
 
     ok: Bool[Array, ""]
@@ -113,6 +125,7 @@ class EventsInStep(NamedTuple):
     doubted: Bool[Array, ""]
     part: Float[Array, ""]
     undefined: Bool[Array, ""]
+    sizes: Float[Array, " n_guards"]
 
 
 class Landing(NamedTuple):
@@ -133,11 +146,38 @@ class Landing(NamedTuple):
     within: tuple[Any, Array] | None = None
 
 
-def none_yet(events: Events, t: Array, d: Array, log: Log) -> EventState:
+def none_yet(
+    held: Integration, t: Array, x: Float[Array, " n_states"], d: Array, log: Log
+) -> EventState:
     """Before the first event."""
-    zero, before = jnp.zeros((), jnp.int32), jnp.full_like(t, -jnp.inf)
-    nothing = no_bracketing(events, t), jnp.zeros(events.n_guards, t.dtype), jnp.array(False)
-    return EventState(d, log, zero, before, *nothing)
+    events, zero, before = held.watched, jnp.zeros((), jnp.int32), jnp.full_like(t, -jnp.inf)
+    none = jnp.zeros(events.n_guards, t.dtype)
+    return EventState(
+        d,
+        log,
+        zero,
+        before,
+        no_bracketing(events, t),
+        none,
+        jnp.array(False),
+        none,
+        none if events.timed.all() else _least_size(held, t, x),
+    )
+
+
+def _least_size(held: Integration, t: Array, x: Float[Array, " n_states"]) -> Array:
+    """What conditions' numbers must be at least, by the terms that they are sums of: states with all sorts of signs."""
+    field = without_derivatives(held).field
+    t, x = lax.stop_gradient((t, x))
+    k = np.arange(len(x))
+    signs = jnp.asarray((1 - 2 * (k % 2)) * (1 + k * GOLDEN % 1), x.dtype)
+    _, terms = jax.jvp(lambda x: guards(held.watched, field.at(t).values(x)), (x,), (signs * x,))
+    least = ROUNDINGS * jnp.finfo(x.dtype).eps / _quiet(x.dtype)
+    return least * jnp.where(jnp.isfinite(terms), jnp.abs(terms), 0.0)
+
+
+def _quiet(dtype: np.dtype[Any]) -> float:
+    return max(QUIET, ROUNDINGS * float(jnp.finfo(dtype).eps))
 
 
 def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
@@ -197,7 +237,7 @@ def look_within(
     events, ok, bracketing = held.watched, made.accepted, state.bracketing
     if events.timed.all():
         no, whole = jnp.array(False), jnp.ones_like(h)
-        return EventsInStep(ok, stop, bracketing, no, no, whole, no)
+        return EventsInStep(ok, stop, bracketing, no, no, whole, no, state.reach)
     numbers = _numbers(method, held, made, t, h)
     found = look(events, bracketing, numbers, state.deadband, state.d, *lax.stop_gradient((t, h)))
     # a fast mode swings where stability limits the steps, and what depends on it changes to and fro
@@ -223,6 +263,7 @@ def look_within(
         doubted,
         lax.stop_gradient(part),
         jnp.any(jnp.isnan(numbers[-1]) & ~events.timed),
+        jnp.max(jnp.abs(numbers), axis=0, initial=0.0, where=~jnp.isnan(numbers)),
     )
 
 
@@ -311,11 +352,18 @@ def after(
     """What belongs to events behind a step."""
     d, t = landing.d, landing.t
     moved = jnp.any(d != state.d) | jnp.any(landing.x != made.x) | (row.kind != STATE)
-    deadband = jnp.where(
-        row.band >= 0, jnp.maximum(DEADBAND_GROWTH * state.deadband, row.band), state.deadband
+    near = happened & moved & _near(problem, state, t)
+    reach, largest = (
+        jnp.where(seen.ok, jnp.maximum(a, seen.sizes), a) for a in (state.reach, state.largest)
     )
-    deadband = lax.stop_gradient(jnp.where(moved, 0.0, deadband))
+    own = happened & (row.kind == STATE) & (jnp.arange(len(reach)) == row.which)
+    grown = DEADBAND_GROWTH * state.deadband
+    quiet = (reach <= _quiet(reach.dtype) * largest) & jnp.all(landing.x == made.x) & ~near
+    kept = jnp.where(quiet, jnp.where(own, jnp.maximum(grown, reach), state.deadband), 0.0)
+    wider = jnp.where(row.band >= 0, jnp.maximum(grown, row.band), state.deadband)
+    deadband = lax.stop_gradient(jnp.where(moved, kept, wider))
     deadband = jnp.where(happened, deadband, state.deadband)
+    reach, largest = lax.stop_gradient((jnp.where(own, 0.0, reach), largest))
     happened = happened & moved
     fired = jnp.where(row.kind == JUMP, -1, row.which)
     log = state.log.with_event(
@@ -326,11 +374,11 @@ def after(
         (landing.x, d),
         seen.grazes & (row.kind == STATE),
     )
-    near = happened & _near(problem, state, t)
     chattering = jnp.where(happened, jnp.where(near, state.chattering + 1, 0), state.chattering)
     last = jnp.where(happened, lax.stop_gradient(t), state.last)
     peeked = (seen.part < 1) & ~seen.doubted | (state.peeked & ~seen.ok)
-    return EventState(d, log, chattering.astype(jnp.int32), last, seen.bracketing, deadband, peeked)
+    chattering = chattering.astype(jnp.int32)
+    return EventState(d, log, chattering, last, seen.bracketing, deadband, peeked, reach, largest)
 
 
 def _numbers(

@@ -156,7 +156,9 @@ def begin(method: Any, problem: Integration, start: LoopStart) -> tuple[LoopStat
     events = None
     if start.d is not None:
         assert start.log is not None
-        events = between_events.none_yet(problem.watched, start.t, start.d, start.log)
+        events = between_events.none_yet(
+            problem.held(start.d), start.t, start.x, start.d, start.log
+        )
     return LoopState(start.t, start.x, following, ahead, memory, why, counts, events), nothing
 
 

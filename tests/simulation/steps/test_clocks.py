@@ -149,12 +149,27 @@ class Levelled(Clock):
         yield ac.Eq(ac.der(self.second), flow)
 
 
+class Settled(Clock):
+    """Beside a clock, a lag that settles at the level of a comparison, and crosses it to and fro by rounding."""
+
+    goal = ac.Parameter(0.3)
+    x = ac.Variable(start=1.3, fixed=True)
+    above = ac.Discrete(kind="bool")
+
+    def equations(self):
+        yield from super().equations()
+        yield ac.Eq(ac.der(self.x), 100 * (self.goal - self.x))
+        yield ac.Eq(self.above, self.x > self.goal)
+
+
 def ticks_beside_levels() -> list[float]:
-    """How often the clock has ticked in 60 s, by method and the levels' starts."""
-    system, starts = ac.compile(Levelled(period=1.0)), np.linspace(1.5, 2.0, 9)
+    """How often the clock has ticked in 60 s, by method and the levels' starts, or the level."""
+    levels, lag = ac.compile(Levelled(period=1.0)), ac.compile(Settled(period=1.0))
+    each = (levels, {"first": np.linspace(1.5, 2.0, 9)}), (lag, {"goal": [0.3, 123.456]})
     found = [
-        ac.sweep(system, {"first": starts}, 60.5, saveat=[60.5], solver=solver)["n"][:, -1]
+        ac.sweep(system, values, 60.5, saveat=[60.5], solver=solver)["n"][:, -1]
         for solver in ("auto", "stiff")
+        for system, values in each
     ]
     return np.concatenate(found).tolist()
 
