@@ -160,7 +160,7 @@ def rates_from(
     if program.state_rates is None:
         return jnp.zeros_like(values.x)
     found = jnp.broadcast_to(read_elements(program.state_rates, arrays), values.x.shape)
-    found = found.astype(values.x.dtype)  # of a constant as well
+    found = found.astype(jnp.result_type(values.x, values.packed.values))  # of a constant as well
     signs = program.rate_signs
     return found if (signs == 1).all() else found * jnp.asarray(signs, found.dtype)
 

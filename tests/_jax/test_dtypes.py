@@ -139,3 +139,17 @@ def test_a_model_computes_in_its_states_precision():
 def test_other_precisions_are_refused():
     with pytest.raises(ac.DataError, match="dtype=float16: models compute in float64 or float32"):
         ac.simulate(plain(), (0, 1), dt=0.1, inputs={"push.f": force}, dtype=jnp.float16)
+
+
+class Constant(ac.Component):
+    """A rate that is a number."""
+
+    x = ac.Variable(start=0.0, fixed=True)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), 2)
+
+
+def test_a_rate_that_is_a_number_has_its_states_precision():
+    run = ac.simulate(ac.compile(Constant()), 1.0, dtype="float32", solver="kvaerno3")
+    np.testing.assert_allclose(run["x"][-1], 2.0, rtol=1e-5)
