@@ -128,3 +128,26 @@ class Thresholds(ac.Component):
 def test_conditions_without_a_value_are_no_silent_result() -> None:
     with pytest.warns(UserWarning, match=r"undefined \(nan\) at the end of \d+ steps"):
         ac.simulate(ac.compile(Thresholds()), 1.0)
+
+
+class Repeated(ac.Component):
+    """Two linear equations for ``y`` and ``z``, which a parameter makes the same; ``y`` decides alone."""
+
+    p = ac.Parameter(2.0)
+    x = ac.Variable(start=1.0, fixed=True)
+    y, z = ac.Variable(), ac.Variable()
+    on = ac.Discrete(kind="bool")
+
+    def equations(self):
+        yield Eq(der(self.x), self.on)
+        yield Eq(self.y + self.z, self.x)
+        yield Eq(self.y + self.p * self.z, self.x)
+        yield Eq(self.on, self.y > 0.5)
+
+
+def test_undefined_conditions_name_the_singular_equations_behind_them() -> None:
+    expected = (
+        r"undefined \(nan\) at the end of \d+ steps.* At t = 0 s, .*singular.* lock the same motion"
+    )
+    with pytest.warns(UserWarning, match=expected):
+        ac.simulate(ac.compile(Repeated()), 1.0, params={"p": 1.0})
