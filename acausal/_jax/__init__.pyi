@@ -9,6 +9,7 @@ from .damped_steps import (
 )
 from .differentiation import two_modes as two_modes, value_and_jacobian as value_and_jacobian
 from .dtypes import (
+    above_rounding as above_rounding,
     cast as cast,
     check_time as check_time,
     floating as floating,

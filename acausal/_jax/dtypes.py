@@ -36,6 +36,11 @@ def precision(dtype: DTypeLike) -> np.dtype[np.floating[Any]]:
     return chosen
 
 
+def above_rounding(least: float, roundings: float, dtype: DTypeLike) -> float:
+    """A small number relative to 1, or so many roundings of a precision where that is more."""
+    return max(least, roundings * float(jnp.finfo(dtype).eps))
+
+
 def cast(tree: Tree, dtype: DTypeLike) -> Tree:
     """The tree with its floating-point arrays in a precision."""
     return jax.tree.map(lambda a: a.astype(dtype) if eqx.is_inexact_array(a) else a, tree)

@@ -15,7 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import value_and_jacobian
+from acausal._jax import above_rounding, value_and_jacobian
 from acausal.codegen.elimination import eliminate
 from acausal.codegen.instructions import ArrayFormula, SolveTornLoop
 from acausal.codegen.lower import ModuleValue
@@ -69,7 +69,7 @@ def _where_solved(
     a: Float[Array, "m m"], x: Float[Array, " m"], b: Float[Array, " m"]
 ) -> Float[Array, " m"]:
     """``x`` if ``a x + b = 0`` but for rounding, else NaN."""
-    rest = max(REST, ROUNDINGS * float(jnp.finfo(a.dtype).eps))
+    rest = above_rounding(REST, ROUNDINGS, a.dtype)
     terms = jnp.abs(a) @ jnp.abs(x) + jnp.abs(b)
     return jnp.where(jnp.all(jnp.abs(a @ x + b) <= rest * terms), x, jnp.nan)
 

@@ -13,7 +13,7 @@ from jax import lax
 from jax.typing import ArrayLike, DTypeLike
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import without_derivatives
+from acausal._jax import above_rounding, without_derivatives
 from acausal.codegen import Values
 from acausal.events.event_formulas import Events
 from acausal.events.zero_crossings import guards, holds, jumped, updated
@@ -47,7 +47,7 @@ COINCIDE, ROUNDINGS = 1e-12, 8.0
 
 def coincide(dtype: DTypeLike) -> float:
     """How far times of size 1 may be apart to be the same instant."""
-    return max(COINCIDE, ROUNDINGS * float(jnp.finfo(dtype).eps))
+    return above_rounding(COINCIDE, ROUNDINGS, dtype)
 
 
 class Pass(NamedTuple):

@@ -10,7 +10,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import cond_any, either, without_derivatives
+from acausal._jax import above_rounding, cond_any, either, without_derivatives
 from acausal.events import (
     POINTS,
     After,
@@ -177,7 +177,7 @@ def _least_size(held: Integration, t: Array, x: Float[Array, " n_states"]) -> Ar
 
 
 def _quiet(dtype: np.dtype[Any]) -> float:
-    return max(QUIET, ROUNDINGS * float(jnp.finfo(dtype).eps))
+    return above_rounding(QUIET, ROUNDINGS, dtype)
 
 
 def sooner(held: Integration, t: Array, x: Array, stop: Stop) -> Stop:
