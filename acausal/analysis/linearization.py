@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Complex, Float, Inexact
-from scipy.linalg import expm, solve_continuous_are
+from scipy.linalg import expm, qr, solve_continuous_are
 
 from acausal._jax import array, check_time, compiled, is_real
 from acausal.analysis.operating_point import OperatingPoint
@@ -420,9 +420,24 @@ def linearize(
 
     at = at._replace(t=array(at.t))  # one program for all times
     (A, B), (C, D) = _matrices(system, outputs, at)
-    n = system.reduced.n_independent  # the guesses of loops follow from the other states
-    a, b, c, x = A[:n, :n], B[:n], C[:, :n], at.x[:n]
-    return Linearization(a, b, c, D, system.states[:n], system.inputs, outputs, x, at.u)
+    chosen, along = _independent(system, at)
+    a, b, c, x = (A @ along)[chosen], B[chosen], C @ along, at.x[chosen]
+    names = tuple(system.states[i] for i in chosen.tolist())
+    return Linearization(a, b, c, D, names, system.inputs, outputs, x, at.u)
+
+
+def _independent(system: System, at: Values) -> tuple[np.ndarray, Array]:
+    """As many states as there are degrees of freedom, and how all states move with these.
+
+    The guesses of loops follow from the other states; those that are projected follow from some of them.
+    """
+    n = system.reduced.n_independent
+    if not system.reduced.gaps:
+        return np.arange(n), jnp.eye(len(at.x), n)
+    moved = np.asarray(jax.jacfwd(lambda x: system.closed(at._replace(x=x)))(at.x))
+    order = qr(moved[:n].T, pivoting=True, mode="r")[1]
+    chosen = np.sort(order[: n - len(system.reduced.gaps)])
+    return chosen, jnp.asarray(moved @ np.linalg.pinv(moved[chosen]))
 
 
 @compiled

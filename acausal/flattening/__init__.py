@@ -35,5 +35,9 @@ from acausal.flattening.reading import (
     read_statements as read_statements,
 )
 from acausal.flattening.sums import Statement as Statement
-from acausal.flattening.template import Integers as Integers, Template as Template
+from acausal.flattening.template import (
+    Integers as Integers,
+    Template as Template,
+    interned as interned,
+)
 from acausal.flattening.templates import FEW_VARIANTS as FEW_VARIANTS

@@ -33,6 +33,9 @@ from acausal.flattening import Binding, FlatModel, LeavesCaches
 from acausal.structure import ReducedModel
 
 
+OPEN, DEPENDENT = 1e3, 1e6
+
+
 @dataclass(frozen=True)
 class FixedStart:
     """``sign * node = start`` of ``variable``."""
@@ -68,6 +71,22 @@ class Conditions(LeavesCaches):
         )
 
     @cached_property
+    def mobility(self) -> np.ndarray:
+        """How far each state may move for the conditions, in nominal values, where another one moves by 1.
+
+        Of states that are tied to each other, those whose start nobody has given move first, dependent ones before others.
+        """
+        n, tied = len(self.start_of), [p.states for p in self.reduced.projections]
+        dependent = np.isin(
+            self.reduced.states, [s for p in self.reduced.projections for s in p.dependent]
+        )
+        given = np.asarray([self.reduced.model.start_given[v] for v, _ in self.start_of], bool)
+        far = np.where(given, 1.0, np.where(dependent, DEPENDENT, OPEN))
+        return np.where(
+            np.isin(self.reduced.states, [s for own in tied for s in own]), far, np.ones(n)
+        )
+
+    @cached_property
     def own(self) -> tuple[FixedStart, ...]:
         """The fixed starts that states take directly."""
         return tuple(
@@ -85,16 +104,19 @@ class Conditions(LeavesCaches):
         for group in self.reduced.model.initial:
             places = zip(group.components.tolist(), group.origins, strict=True)
             names += [self.reduced.model.stated_at(c, o) for c, o in places]
+        names += [stated for p in self.reduced.projections for stated in p.constraints]
         states = self.reduced.states
         return names + [f"der({self.reduced.name(int(states[i]))}) = 0" for i in resting]
 
     def starts(self, packed: Packed) -> Float[Array, " n_states"]:
-        """Start values of the states, shape (n_states,); guesses of loops without one are a little off zero."""
-        found, guesses = self._starts(packed, self.start_of), self.reduced.guesses
-        if not len(guesses):
+        """Start values of the states, shape (n_states,); those that are sought without one are a little off zero."""
+        found, states = self._starts(packed, self.start_of), self.reduced.states
+        curved = [s for p in self.reduced.projections if not p.is_linear for s in p.dependent]
+        sought = np.isin(states, [*self.reduced.guesses, *curved])
+        if not sought.any():
             return found
-        off = self.reduced.start_guess(guesses) - self.reduced.start_values(guesses)
-        return found + np.pad(off, (len(self.start_of) - len(guesses), 0))
+        off = self.reduced.start_guess(states) - self.reduced.start_values(states)
+        return found + np.where(sought, off, 0.0)
 
     def discrete_start(self, packed: Packed) -> Float[Array, " n_discrete"]:
         """Start values of the discrete variables, shape (n_discrete,)."""
@@ -121,6 +143,8 @@ class Conditions(LeavesCaches):
             parts.append((signs * values - wanted) / nominal[[c.variable for c in starts]])
         arrays = self._arrays(at) if self._initial else ()
         parts += [jnp.atleast_1d(a) for one in self._initial for a in execute(one, at, arrays)]
+        if self.reduced.gaps:
+            parts.append(read(self.program, self.reduced.gaps, at))
         if resting:
             dx = rates(self.program, at)
             parts.append((dx / self.nominal)[np.asarray(resting)])

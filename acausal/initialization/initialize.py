@@ -122,8 +122,9 @@ class Initializer(LeavesCaches):
 
     def solves(self, x0: Any, steady: bool | Sequence[str], least_squares: bool) -> bool:
         """Whether states follow from equations, and not from starts and ``x0`` alone."""
-        if len(self.reduced.guessed) or (x0 is not None and not isinstance(x0, Mapping)):
-            return len(self.reduced.guessed) > 0
+        is_exact = bool(self.reduced.exact.all())
+        if not is_exact or (x0 is not None and not isinstance(x0, Mapping)):
+            return not is_exact
         starts = jnp.zeros(len(self.names))
         return self._posed(starts, self.by_state(x0 or {}), steady, least_squares)[1] is not None
 
@@ -244,8 +245,9 @@ class Initializer(LeavesCaches):
             least_squares,
         )
         # x0 says all that fixed starts leave open
-        overruled = bool(given) and not (plan.moved or plan.resting)
-        nothing = not (plan.starts or plan.resting or self.reduced.model.initial)
+        is_free = not self.reduced.gaps
+        overruled = bool(given) and not (plan.moved or plan.resting) and is_free
+        nothing = not (plan.starts or plan.resting or self.reduced.model.initial) and is_free
         return x, None if overruled or nothing else plan
 
     def by_state(self, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -287,8 +289,8 @@ class Initializer(LeavesCaches):
     # -- its solution ------------------------------------------------------------------------------
 
     def closed(self, at: Values) -> Array:
-        """The states with the guesses of loops at the solutions; those that are NaN or missing begin at starts."""
-        return self._closed(at) if len(self.reduced.guessed) else at.x
+        """The states that are close to variables at these; guesses of loops that are NaN or missing begin at starts."""
+        return at.x if self.reduced.exact.all() else self._closed(at)
 
     @cached_property
     def _closed(self) -> Callable[[Values], Array]:
@@ -299,9 +301,11 @@ class Initializer(LeavesCaches):
             own, given = jnp.split(at.x, [self.reduced.n_independent])
             start = self.conditions.starts(at.packed)[len(own) :]
             guess = jnp.where(jnp.isfinite(given), given, start) if len(given) else start
-            nearby = at._replace(x=jnp.concatenate([own, guess]))
-            found = read(self.conditions.program, self.reduced.guessed.tolist(), nearby)
-            return jnp.concatenate([own, jnp.where(jnp.isfinite(found), found, guess)])
+            nearby = jnp.concatenate([own, guess])
+            places = np.flatnonzero(~self.reduced.exact)
+            meant = self.reduced.meant[self.reduced.states[places]].tolist()
+            found = read(self.conditions.program, meant, at._replace(x=nearby))
+            return nearby.at[places].set(jnp.where(jnp.isfinite(found), found, nearby[places]))
 
         return closed
 

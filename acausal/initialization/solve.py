@@ -92,7 +92,7 @@ class InitializationSolver(LeavesCaches):
         The solution is found without derivatives; one Newton step from there, which moves nothing, carries them.
         """
         free = np.asarray(problem.moved, dtype=np.int64)
-        nominal = self.conditions.nominal[free]
+        nominal = (self.conditions.nominal * self.conditions.mobility)[free]
         x = start.x
 
         def residual(z: Array, at: Values) -> Array:

@@ -275,7 +275,8 @@ class Solution(ByName):
 
     def _observe(self, names: Sequence[str]) -> None:
         unread = new = tuple(n for n in names if n not in self._observed)
-        states = self.system.states[: self.system.reduced.n_independent]
+        exact = self.system.reduced.exact.tolist()
+        states = [n if own else "" for n, own in zip(self.system.states, exact, strict=True)]
         for source, values in ((states, self.x), (self.system.inputs, self.u)):
             found = {n: select(values, (..., source.index(n))) for n in new if n in source}
             self._observed.update(found)

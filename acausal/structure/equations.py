@@ -45,6 +45,7 @@ class Equations:
     base: list[int]
     discrete: dict[int, None]
     derived_from: dict[int, int] = field(default_factory=dict)
+    meant: dict[int, int] = field(default_factory=dict)
 
     @staticmethod
     def of(model: FlatModel, aliases: AliasFree) -> Equations:
@@ -185,6 +186,7 @@ class Equations:
 
     def name(self, node: int) -> str:
         """Dotted name of a node; derivatives without one are called ``der(...)``."""
+        node = self.meant.get(node, node)
         if node < self.model.n_variables:
             return self.model.layout.variable(node)
         return f"der({self.name(self.base[node])})"
@@ -294,12 +296,33 @@ class Equations:
                 self.template[e], columns = template.with_signals()
                 self.variables[e] = [self.variables[e][c] for c in columns]
 
-    def new_node(self) -> int:
-        """A further variable without a name."""
+    def new_node(self, stands_for: int = -1) -> int:
+        """A further variable, without a name or called as another one."""
         self.structure.derivative.append(-1)
         self.sign.append(1)
         self.base.append(-1)
-        return len(self.base) - 1
+        node = len(self.base) - 1
+        if stands_for >= 0:
+            self.meant[node] = stands_for
+        return node
+
+    def append(
+        self,
+        like: int,
+        template: Statement,
+        variables: list[int],
+        parameters: Sequence[int] = (),
+        modules: Sequence[int] = (),
+    ) -> None:
+        """Add an equation that is stated where another one is."""
+        self.template.append(template)
+        self.variables.append(variables)
+        self.parameters.append([*parameters])
+        self.modules.append([*modules])
+        self.component.append(self.component[like])
+        self.origin.append(self.origin[like])
+        self.structure.successor.append(-1)
+        self.structure.incidence.append([v for v in variables if v not in self.known])
 
     def _derivative(self, node: int) -> tuple[int, int]:
         """Node and sign of a node's derivative."""

@@ -2,8 +2,7 @@
 
 The angles of a closed linkage have several solutions, and a motion goes on with those nearest to the ones of the moment
 before. So every tearing variable ``z`` of such a loop whose derivative is known has a state ``g`` that starts at the
-solution and moves with it: ``der(g) = der(z) + |der(z)| (z - g) / nominal``. The last term brings ``g`` back while
-``z`` moves by its nominal value, at any speed: the errors of the steps do not add up. Nothing else depends on ``g``.
+solution and moves with it: ``der(g) = der(z) + |der(z)| (z - g) / nominal``. Nothing else depends on ``g``.
 """
 
 from __future__ import annotations
@@ -11,15 +10,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-import sympy as sp
 
 from acausal.flattening import Integers, Template
 from acausal.structure.algebraic_loops import TornLoop
 from acausal.structure.blocks import Assignment
 from acausal.structure.equations import matrix
+from acausal.structure.projected_states import following
 from acausal.structure.reduced_model import ReducedModel
-
-_SLOTS = tuple(sp.Symbol(name, real=True) for name in ("rate", "der", "z", "g"))
 
 
 def with_loop_guesses(reduced: ReducedModel) -> ReducedModel:
@@ -44,7 +41,7 @@ def with_loop_guesses(reduced: ReducedModel) -> ReducedModel:
         rates, derivatives, solved, guesses, signs, reduced.nominal(solved), strict=True
     ):
         *nodes, sign, nominal = row
-        rows.setdefault(_template(int(sign), float(nominal)), []).append(list(map(int, nodes)))
+        rows.setdefault(following(int(sign), float(nominal)), []).append(list(map(int, nodes)))
     return replace(
         reduced,
         states=np.concatenate([reduced.states, guesses]),
@@ -56,12 +53,6 @@ def with_loop_guesses(reduced: ReducedModel) -> ReducedModel:
         derivative_sign=np.concatenate([reduced.derivative_sign, plus, plus]),
         steps=(*reduced.steps, *(_assignment(*pair) for pair in rows.items())),
     )
-
-
-def _template(sign: int, nominal: float) -> Template:
-    rate, der, z, g = _SLOTS
-    back = sp.Abs(der) * (z - g) / sp.nsimplify(abs(nominal))
-    return Template(rate - sign * der - back, _SLOTS, (0,) * len(_SLOTS), (), ())
 
 
 def _assignment(template: Template, rows: list[list[int]]) -> Assignment:

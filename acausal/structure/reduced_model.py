@@ -21,9 +21,10 @@ from acausal.structure.blocks import SolvingStep, order_steps
 from acausal.structure.discrete import check_jumps, followed
 from acausal.structure.equations import Equations
 from acausal.structure.hidden_constraints import expose_constraints
+from acausal.structure.projected_states import Projection
 from acausal.structure.singularity import explain_singularity
 from acausal.structure.sparse_loops import SparseLoop
-from acausal.structure.state_selection import select_states
+from acausal.structure.state_selection import Selection, select_states
 
 OFF_ZERO = 1e-3
 
@@ -46,6 +47,7 @@ class ReducedModel(LeavesCaches):
         derivative, derivative_sign: as in `AliasFree`, extended.
         steps: in solving order.
         guessed: unknowns of nonlinear loops; the last states are the guesses from which Newton's method finds them.
+        projections: of the states that are only close to the variables that they are called as.
     """
 
     model: FlatModel
@@ -63,6 +65,7 @@ class ReducedModel(LeavesCaches):
     derivative_sign: Integers
     steps: tuple[SolvingStep, ...]
     guessed: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    projections: tuple[Projection, ...] = ()
 
     @property
     def n_independent(self) -> int:
@@ -76,8 +79,10 @@ class ReducedModel(LeavesCaches):
 
     @cached_property
     def meant(self) -> Integers:
-        """For every node itself; for a guess the unknown that it is a guess of."""
+        """For every node itself; for a guess, or a state that is projected, the variable that it is close to."""
         nodes = np.arange(len(self.derivative))
+        for projection in self.projections:
+            nodes[list(projection.near)] = list(projection.near.values())
         nodes[self.guesses] = self.guessed
         return nodes
 
@@ -97,6 +102,16 @@ class ReducedModel(LeavesCaches):
             node, own = self.resolve(derivative)
             sign *= own
         return node, sign
+
+    @cached_property
+    def exact(self) -> np.ndarray:
+        """For every state whether it is the variable that it is called as, and not just close to it."""
+        return self.meant[self.states] == self.states
+
+    @cached_property
+    def gaps(self) -> list[int]:
+        """The nodes that are zero where states are on the constraints that they are projected on."""
+        return [gap for p in self.projections for gap in p.gaps]
 
     @cached_property
     def start_members(self) -> tuple[Integers, Integers]:
@@ -124,6 +139,7 @@ class ReducedModel(LeavesCaches):
         v = np.where(named, member, 0)
         start = np.where(named, model.start[v], 0.0)
         unknown = ~(named & model.start_given[v]) & (start == 0)
+        unknown &= ~np.isin(nodes, [m for p in self.projections for m in p.multipliers])
         return sign * np.where(unknown, OFF_ZERO * np.where(named, model.nominal[v], 1.0), start)
 
     def nominal(self, nodes: Integers) -> np.ndarray:
@@ -171,14 +187,14 @@ def reduce(model: FlatModel) -> ReducedModel:
         raise StructureError(problem)
     system.reduce_index()
     system.insert_signals()
-    states = select_states(system)
-    return _order(system, states)
+    return _order(system, select_states(system))
 
 
 # -- solving order ------------------------------------------------------------------------------------
 
 
-def _order(system: Equations, states: list[int]) -> ReducedModel:
+def _order(system: Equations, selection: Selection) -> ReducedModel:
+    states = selection.states
     solved = set(states)
     check_jumps(system.model, system.aliases, solved)
     unknowns = [v for v in system.unknowns() if v not in solved]
@@ -222,6 +238,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
         derivative=np.asarray(system.structure.derivative, dtype=np.int64),
         derivative_sign=np.asarray(system.sign, dtype=np.int64),
         steps=steps,
+        projections=tuple(selection.projections),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -11,13 +12,24 @@ from acausal.errors import StructureError, listing
 from acausal.modeling import STATE_SELECT
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import Point, random_values
+from acausal.structure.projected_states import Mechanism, Projection, find_mechanisms, project
 from acausal.structure.rank import choose_columns
 
 DEFAULT = float(STATE_SELECT.index("default"))
 
 
-def select_states(system: Equations) -> list[int]:
+@dataclass(frozen=True)
+class Selection:
+    """The states, of which some are `projected` on the constraints."""
+
+    states: list[int]
+    projections: list[Projection]
+
+
+def select_states(system: Equations) -> Selection:
     """Choose dummy derivatives (Mattsson & Soderlind 1993) and keep the most preferred variables as states.
+
+    Where equally preferred variables are tied by constraints that none of them fulfils everywhere, all are states.
 
     The differentiated constraints determine the dummies if their Jacobian has full rank. This is decided numerically:
     at the model's start values; where these are a singular point, as angles of zero often are, or one that keeps less
@@ -33,10 +45,27 @@ def select_states(system: Equations) -> list[int]:
     constraints = [e for e in system.derived_from if system.structure.successor[e] < 0]
     candidates = [v for v in antecedent if derivative[v] < 0]
     points = _points(system) if constraints else ()
+    mechanisms: list[Mechanism] = []
+    dependent: set[int] = set()
     while constraints:
         ranks = {v: wanted(antecedent[v]) for v in candidates}
         preferences = {v: ranks[v][0] for v in sorted(candidates, key=ranks.__getitem__)}
-        dummy = _independent(system, constraints, preferences, points)
+        stated = {system.derived_from[e]: e for e in constraints}
+        found = find_mechanisms(
+            system,
+            list(stated),
+            {antecedent[v]: preference for v, preference in preferences.items()},
+        )
+        if found:
+            chosen = _independent(system, constraints, preferences, points)
+            dependent.update(antecedent[v] for v in chosen)
+        mechanisms += found
+        solved = {stated[e] for m in found for e in m.equations}
+        dummy = [v for v in candidates if any(antecedent[v] in m.variables for m in found)]
+        dummies.update(dummy)
+        left = {v: p for v, p in preferences.items() if v not in dummies}
+        rest = [e for e in constraints if e not in solved]
+        dummy += _independent(system, rest, left, points) if rest else []
         dummies.update(dummy)
         constraints = [
             system.derived_from[e]
@@ -44,9 +73,12 @@ def select_states(system: Equations) -> list[int]:
             if system.derived_from[e] in system.derived_from
         ]
         candidates = [antecedent[v] for v in dummy if antecedent[v] in antecedent]
-    return [
+    states = [
         v for v, d in enumerate(derivative) if d >= 0 and d not in dummies and v not in system.known
     ]
+    projections = project(system, mechanisms[::-1], dependent, points)
+    states += [s for p in projections for s in p.states]
+    return Selection(sorted(states, key=lambda s: system.meant.get(s, s)), projections)
 
 
 def _independent(

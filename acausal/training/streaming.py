@@ -71,6 +71,6 @@ def _needs_whole_records(system: System, options: FitOptions) -> str | None:
     starts = [options.x0] if isinstance(options.x0, str) else list(options.x0.values())
     if "fit" in starts:
         return "x0='fit'"
-    if len(system.reduced.guessed):
+    if not system.reduced.exact.all():
         return "a mechanism with closed loops"
     return None

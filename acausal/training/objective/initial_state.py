@@ -79,7 +79,7 @@ class FirstStates(eqx.Module):
                 found = lax.map(one, rows)
             known = jnp.where(jnp.isnan(self.given), found, self.given)
             states = jnp.where((self.kind == kind)[:, None], known, states)
-        if not len(system.reduced.guessed):
+        if system.reduced.exact.all():
             return states
 
         def closed(t: Array, x: Array, u: Array, p: Array) -> Float[Array, " n_states"]:
