@@ -73,9 +73,7 @@ def by_derivatives(function: Function, belief: Belief) -> Linear:
 def by_points(function: Function, belief: Belief) -> Linear:
     """The regression line through two points for each column of a root of the covariance."""
     mean, covariance, _ = belief
-    m = len(mean)
-    least = ROUNDING * jnp.maximum(jnp.diag(covariance), NOTHING)
-    root = cholesky(covariance + jnp.diag(least))
+    m, root = len(mean), _root(covariance)
     apart = jnp.sqrt(m) * root.T
     y = jax.vmap(function)(jnp.concatenate([mean + apart, mean - apart]))
     spread = (y[:m] - y[m:]) / (2 * jnp.sqrt(m))
@@ -90,12 +88,12 @@ class Linearized(NamedTuple):
     line: Callable[[Function, Belief], Linear]
 
     def forecast(
-        self, belief: Belief, step: Function, sigma: Float[Array, " m"], key: PRNGKeyArray | None
+        self, belief: Belief, step: Function, noise: Float[Array, "m m"], key: PRNGKeyArray | None
     ) -> tuple[Belief, Float[Array, "m m"]]:
-        """The belief after a step that adds noise, and its covariance with that before."""
+        """The belief after a step that adds noise of a covariance, and its covariance with that before."""
         mean, slope, rest = self.line(step, belief)
         shared = belief.covariance @ slope.T
-        return Belief(mean, _symmetric(slope @ shared + rest) + jnp.diag(sigma**2)), shared
+        return Belief(mean, _symmetric(slope @ shared + rest) + noise), shared
 
     def correct(
         self, belief: Belief, observe: Function, measured: Measured, key: PRNGKeyArray | None
@@ -116,12 +114,12 @@ class EnsembleFilter(NamedTuple):
     """The ensemble filter: each member sees measurements with noise of its own."""
 
     def forecast(
-        self, belief: Belief, step: Function, sigma: Float[Array, " m"], key: PRNGKeyArray
+        self, belief: Belief, step: Function, noise: Float[Array, "m m"], key: PRNGKeyArray
     ) -> tuple[Belief, Float[Array, "m m"]]:
         """As of `Linearized`."""
         members = belief.members
         assert members is not None
-        moved = jax.vmap(step)(members) + sigma * jax.random.normal(key, members.shape)
+        moved = jax.vmap(step)(members) + jax.random.normal(key, members.shape) @ _root(noise).T
         return _of(moved), _covariance(members, moved)
 
     def correct(
@@ -174,6 +172,12 @@ class Path(Protocol):
         """What is measured at a row."""
         ...
 
+    def noise(
+        self, row: Array, z: Float[Array, " m"], sigma: Float[Array, " m"]
+    ) -> Float[Array, "m m"]:
+        """The covariance that white noise, of these deviations over the step, adds from a row to the next one."""
+        ...
+
 
 def run(
     filter: Filter,  # noqa: A002 (the field's word)
@@ -188,7 +192,7 @@ def run(
 
     Arguments:
         start: before the first measurement. measured: of all rows, shapes (n, p).
-        sigma: standard deviations of the noise of every step.
+        sigma: standard deviations of the random walks over every step.
         settle: restores what is certain, such as the modes of a model with events.
     """
 
@@ -200,7 +204,8 @@ def run(
 
     def advance(belief: Belief, row: Array) -> tuple[Belief, tuple[Any, ...]]:
         own = jax.random.fold_in(key, 2 * row + 1)
-        ahead, shared = filter.forecast(belief, path.step(row), sigma[row], own)
+        noise = path.noise(row, belief.mean, sigma[row])
+        ahead, shared = filter.forecast(belief, path.step(row), noise, own)
         belief, found = corrected(settle(ahead, None), row + 1)
         return belief, (belief.mean, belief.covariance, found, Belief(*ahead[:2]), shared)
 
@@ -244,6 +249,27 @@ def smoothed(
     )
 
 
+def gathered(
+    slope: Float[Array, "m m"], sigma: Float[Array, " m"], doublings: int
+) -> Float[Array, "m m"]:
+    """What random walks add up to along a linear model: ``∫ exp(A s) diag(sigma²) exp(A s)ᵀ ds`` from 0 to 1.
+
+    A step of 2**-doublings by Taylor's series, doubled again and again. Where A is too large for it, or not finite, the
+    walks alone.
+    """
+    walks, part = jnp.diag(sigma**2), 0.5**doublings
+    small = part * slope
+    half = jnp.eye(len(slope)) + small / 2
+    forward = jnp.eye(len(slope)) + small @ half
+
+    def double(_: Array, found: tuple[Array, Array]) -> tuple[Array, Array]:
+        added, forward = found
+        return added + forward @ added @ forward.T, forward @ forward
+
+    added, _ = jax.lax.fori_loop(0, doublings, double, (part * half @ walks @ half.T, forward))
+    return jnp.where(jnp.isfinite(added).all(), _symmetric(added), walks)
+
+
 def _own_noise(rest: Float[Array, "p p"], measured: Measured) -> Float[Array, "p p"]:
     """The covariance of measurements that the state does not explain; 1 for those that do not exist."""
     both = measured.known[:, None] & measured.known
@@ -273,6 +299,12 @@ def _of(members: Float[Array, "N m"]) -> Belief:
 def _covariance(a: Float[Array, "N m"], b: Float[Array, "N p"]) -> Float[Array, "m p"]:
     apart = a - jnp.mean(a, axis=0)
     return apart.T @ (b - jnp.mean(b, axis=0)) / (len(a) - 1)
+
+
+def _root(covariance: Float[Array, "m m"]) -> Float[Array, "m m"]:
+    """A lower root of a covariance, of which some may be certain."""
+    least = ROUNDING * jnp.maximum(jnp.diag(covariance), NOTHING)
+    return cholesky(covariance + jnp.diag(least))
 
 
 def _symmetric(a: Float[Array, "m m"]) -> Float[Array, "m m"]:

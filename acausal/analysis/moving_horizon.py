@@ -128,7 +128,7 @@ class _Window(NamedTuple):
     """What is known of W rows.
 
     Attributes:
-        arrival: the belief before the first row's measurement. measured: of all rows. sigma: noise of the steps.
+        arrival: the belief before the first row's measurement. measured: of all rows. sigma: of random walks over steps.
     """
 
     arrival: Belief
@@ -138,13 +138,21 @@ class _Window(NamedTuple):
 
 
 class _Line(eqx.Module):
-    """Linear functions along rows, a `Path`: steps and what is observed, by values at points and slopes."""
+    """Linear functions along rows, a `Path`: steps and what is observed, by values at points and slopes.
+
+    ``spread`` is the covariance of the noise of every step.
+    """
 
     z: Float[Array, "W m"]
     ahead: Float[Array, "W-1 m"]
     slope: Float[Array, "W-1 m m"]
     y: Float[Array, "W p"]
     read: Float[Array, "W p m"]
+    spread: Float[Array, "W-1 m m"]
+
+    def noise(self, row: Array, z: Float[Array, " m"], sigma: Float[Array, " m"]) -> Array:
+        """The covariance of a step's noise, whatever ``z`` and ``sigma``."""
+        return self.spread[row]
 
     def step(self, row: Array) -> Function:
         """From a row to the next one."""
@@ -174,16 +182,17 @@ class _Tangent(eqx.Module):
         """The model along the way with this noise, which begins at a row of the path."""
         rows = first + jnp.arange(len(noise))
 
-        def advance(z: Float[Array, " m"], row: tuple[Array, Array]) -> tuple[Array, Any]:
-            index, own = row
+        def advance(z: Float[Array, " m"], row: tuple[Array, ...]) -> tuple[Array, Any]:
+            index, own, sigma = row
             ahead, slope = value_and_jacobian(path.step(index), z, axis=-1)
-            return ahead + own, (z, ahead, slope)
+            return ahead + own, (z, ahead, slope, path.noise(index, z, sigma))
 
         begin = window.arrival.mean + noise[0]
-        last, (z, ahead, slope) = jax.lax.scan(advance, begin, (rows[:-1], noise[1:]))
+        last, found = jax.lax.scan(advance, begin, (rows[:-1], noise[1:], window.sigma))
+        z, ahead, slope, spread = found
         z = jnp.concatenate([z, last[None]])
         y, read = jax.vmap(lambda r, z: value_and_jacobian(path.observe(r), z, axis=-1))(rows, z)
-        return cls(window, noise, _Line(z, ahead, slope, y, read))
+        return cls(window, noise, _Line(z, ahead, slope, y, read, spread))
 
     @property
     def z(self) -> Float[Array, "W m"]:
@@ -216,8 +225,9 @@ class _Tangent(eqx.Module):
             excess = None if bounds is None else bounds.excess(line.z + off)
             return self._cost(self.noise + more, y, excess)
 
-        spread = jnp.concatenate([jnp.diag(window.arrival.covariance)[None], window.sigma])
-        return jnp.where(spread > 0, jax.grad(cost)(jnp.zeros_like(self.noise)), self.noise)
+        every = jnp.concatenate([window.arrival.covariance[None], line.spread])
+        slope = jax.grad(cost)(jnp.zeros_like(self.noise))
+        return jnp.where(jnp.diagonal(every, axis1=1, axis2=2) > 0, slope, self.noise)
 
     @property
     def scale(self) -> Float[Array, ""]:
@@ -231,7 +241,8 @@ class _Tangent(eqx.Module):
         off, window = z - line.z, self.window
         first = jnp.where(jnp.diag(window.arrival.covariance) > 0, z[0] - window.arrival.mean, 0.0)
         rest = z[1:] - line.ahead - jnp.einsum("wij,wj->wi", line.slope, off[:-1])
-        noise = jnp.concatenate([first[None], jnp.where(window.sigma > 0, rest, 0.0)])
+        is_free = jnp.diagonal(line.spread, axis1=1, axis2=2) > 0
+        noise = jnp.concatenate([first[None], jnp.where(is_free, rest, 0.0)])
         y = line.y + jnp.einsum("wpi,wi->wp", line.read, off)
         excess = None if bounds is None else bounds.excess(z)
         return (noise - self.noise).ravel(), self.cost() - self._cost(noise, y, excess)
@@ -269,8 +280,8 @@ class _Tangent(eqx.Module):
                 jnp.concatenate([measured.sigma, window.bounds.sigma]),
             )
         prior = Belief(arrival.mean + part * self.noise[0], arrival.covariance / (1 + damping))
-        sigma = window.sigma / jnp.sqrt(1 + damping)
-        return smoothed(run(EKF, nearer, prior, measured, sigma, as_key(0)))[0]
+        nearer = eqx.tree_at(lambda a: a.spread, nearer, line.spread / (1 + damping))
+        return smoothed(run(EKF, nearer, prior, measured, window.sigma, as_key(0)))[0]
 
     def _cost(
         self,
@@ -280,7 +291,8 @@ class _Tangent(eqx.Module):
     ) -> Float[Array, ""]:
         window, measured = self.window, self.window.measured
         cost = noise[0] @ inverse(window.arrival.covariance) @ noise[0]
-        cost += jnp.sum(_relative(noise[1:], window.sigma) ** 2)
+        weights = jax.vmap(inverse)(self.line.spread)
+        cost += jnp.einsum("wi,wij,wj->", noise[1:], weights, noise[1:])
         cost += jnp.sum(jnp.where(measured.known, (measured.y - y) / measured.sigma, 0.0) ** 2)
         if excess is not None and window.bounds is not None:
             cost += jnp.sum(_relative(excess, window.bounds.sigma) ** 2)

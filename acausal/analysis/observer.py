@@ -81,10 +81,11 @@ class ObserverStep:
         n = jnp.ceil((t - since) / self.sample_time - LONGER)
         n = jnp.clip(n, 1, MOST).astype(jnp.int32)
         h, change = (t - since) / n, (jnp.where(self.held, low, u) - low) / n
-        noise = self.walk * jnp.sqrt(h)
+        sigma = self.walk * jnp.sqrt(h)
 
         def forecast(k: Array, belief: Belief) -> Belief:
             step = Steps(since + k * h, h, Samples(low + k * change, low + (k + 1) * change))
+            noise = self.model.noise(belief.mean, step, sigma)
             return self.how.forecast(belief, lambda z: self.model.after(z, step), noise, None)[0]
 
         belief = jax.lax.fori_loop(0, n, forecast, Belief(memory.mean, memory.covariance))

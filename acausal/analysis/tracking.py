@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+import diffrax as dfx
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -12,7 +13,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from acausal._jax import is_number, known, traced
-from acausal.analysis.filtering import Belief, Function
+from acausal.analysis.filtering import Belief, Function, gathered
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, ModelError, known_name, shown
 from acausal.events import fire
@@ -37,6 +38,9 @@ RESOLVED = 0.5
 
 MOST_PARTS = 20
 """Where more parts of a step were needed for that, steps are implicit."""
+
+LIKE_THE_STEPS, MANY = 10, 24
+"""How often a short step is doubled for noise along the model, beside the number of substeps, or for stiff models."""
 
 LONGER = 1e-6
 """Rows are added where samples are further apart than is usual, by more than this part of it."""
@@ -109,6 +113,25 @@ class TrackedModel(eqx.Module):
         _, own, d = self.parts(z)
         return jnp.concatenate([found.end, own, d if found.d_end is None else found.d_end])
 
+    def noise(
+        self, z: Float[Array, " m"], step: Steps, sigma: Float[Array, " m"]
+    ) -> Float[Array, "m m"]:
+        """The covariance that random walks, of these deviations over a step, add to an estimate, as the model moves it."""
+
+        def rates(z: Float[Array, " m"]) -> Float[Array, " m"]:
+            dx = self.system.rates(self.values(step.t, z, step.inputs.start))
+            return jnp.concatenate([dx, jnp.zeros(len(z) - len(dx))])
+
+        slope = jax.jacfwd(rates)(z) * step.h
+        is_known = self.certain[:, None] | self.certain
+        return gathered(jnp.where(is_known, 0.0, slope), sigma, self.doublings)
+
+    @property
+    def doublings(self) -> int:
+        """For `gathered`: explicit steps follow the fastest mode, implicit ones may be a million times longer."""
+        is_explicit = not isinstance(self.solver, dfx.AbstractImplicitSolver | Adaptive)
+        return LIKE_THE_STEPS + self.substeps.bit_length() if is_explicit else MANY
+
     def integrate(self, start: Values, steps: Steps, *, direct: bool = False) -> Integrated:
         """The model over some rows; arguments as of `acausal.simulation.integrate`."""
         over: Any = integrate if self.system.events is None else integrate_in_steps
@@ -146,6 +169,12 @@ class AlongRecord(eqx.Module):
         """From a row to the next one."""
         one = jax.tree.map(lambda a: a[row], self.steps)
         return lambda z: self.model.after(z, one)
+
+    def noise(
+        self, row: Array, z: Float[Array, " m"], sigma: Float[Array, " m"]
+    ) -> Float[Array, "m m"]:
+        """What random walks add from a row to the next one."""
+        return self.model.noise(z, jax.tree.map(lambda a: a[row], self.steps), sigma)
 
     def observe(self, row: Array) -> Function:
         """What is measured at a row."""

@@ -38,6 +38,13 @@ def record(seed: int = 0) -> ac.Data:
     return ac.Data(t, {"push.f": force(t), "mass.s": s, "mass.a": a}, missing="nan")
 
 
+def gathered(A: np.ndarray, density: np.ndarray, h: float) -> np.ndarray:
+    """What white noise adds up to over a time: C. Van Loan, IEEE TAC 23, 1978, theorem 1."""
+    n = len(A)
+    whole = expm(np.block([[-A, density], [np.zeros((n, n)), A.T]]) * h)
+    return whole[n:, n:].T @ whole[:n, n:]
+
+
 def by_hand(data: ac.Data) -> tuple[np.ndarray, ...]:
     """A Kalman filter and smoother in matrices, without the library; the input is linear in each step."""
     A, B = np.array([[0, 1], [-C / M, -D / M]]), np.array([[0], [1 / M]])
@@ -52,7 +59,7 @@ def by_hand(data: ac.Data) -> tuple[np.ndarray, ...]:
     for k in range(N):
         if k:
             m = F @ m + held * u[k - 1] + ramp * (u[k] - u[k - 1]) / H
-            P = F @ P @ F.T + np.diag([0, Q**2 * H])
+            P = F @ P @ F.T + gathered(A, np.diag([0, Q**2]), H)
         ahead.append((m, P))
         known = np.isfinite(y[k])
         if known.any():
@@ -183,6 +190,9 @@ class Swing:
 
     def observe(self, row: jax.Array):
         return lambda z: z[:1]
+
+    def noise(self, row: jax.Array, z: jax.Array, sigma: jax.Array):
+        return jnp.diag(sigma**2)
 
 
 @pytest.mark.parametrize("line", [by_derivatives, by_points])

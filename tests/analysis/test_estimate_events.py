@@ -27,7 +27,7 @@ def by_hand(y: np.ndarray) -> tuple[np.ndarray, ...]:
         step = sample @ flow if k % 2 == 0 else flow
         if k:
             m = step @ m + np.array([0, K * (k % 2 == 0)])
-            P = step @ P @ step.T + np.diag([Q**2 * H, 0])
+            P = step @ P @ step.T + np.diag([Q**2 * (1 - a**2) / 2, 0])
         ahead.append((step, m, P))
         S = P[0, 0] + R**2
         v, gain = measured - m[0], P[:, 0] / S

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import chi2
 
 import acausal as ac
-from tests.analysis.test_estimate import Pendulum
+from tests.analysis.test_estimate import Pendulum, gathered
 from tests.support.slow import some_slow
 
 H, N, R, RUB = 0.05, 80, 0.05, 0.2
@@ -22,12 +22,12 @@ def rates(z: np.ndarray) -> np.ndarray:
     return np.array([w, -9.81 / length * np.sin(phi) - RUB * w, 0 * length])
 
 
-def step(z: np.ndarray) -> np.ndarray:
+def step(z: np.ndarray, h: float = H) -> np.ndarray:
     """One of Runge and Kutta, for real and complex numbers."""
     a = rates(z)
-    b = rates(z + H / 2 * a)
-    c = rates(z + H / 2 * b)
-    return z + H / 6 * (a + 2 * b + 2 * c + rates(z + H * c))
+    b = rates(z + h / 2 * a)
+    c = rates(z + h / 2 * b)
+    return z + h / 6 * (a + 2 * b + 2 * c + rates(z + h * c))
 
 
 def shown(z: np.ndarray) -> np.ndarray:
@@ -55,8 +55,9 @@ def by_hand(line, y):
     z, P, found, likelihood = START, np.diag(SPREAD**2), [], 0.0
     for k, value in enumerate(y):
         if k:
+            before = z
             z, A, left = line(step, z, P)
-            P = A @ P @ A.T + left + np.diag(WALK**2 * H)
+            P = A @ P @ A.T + left + gathered(tangent(rates, before, P)[1], np.diag(WALK**2), H)
         if np.isfinite(value):
             expected, C, left = line(shown, z, P)
             S = (C @ P @ C.T + left).item() + R**2
@@ -73,8 +74,10 @@ def truths(runs: int, rng: np.random.Generator) -> np.ndarray:
     """Ways of pendulums from uncertain starts with noise, shape (3, N, runs)."""
     z = START[:, None] + SPREAD[:, None] * rng.standard_normal((3, runs))
     way = [z]
+    h = H / 10
     for _ in range(N - 1):
-        z = step(z) + WALK[:, None] * np.sqrt(H) * rng.standard_normal((3, runs))
+        for _ in range(10):
+            z = step(z, h) + WALK[:, None] * np.sqrt(h) * rng.standard_normal((3, runs))
         way.append(z)
     return np.stack(way, axis=1)
 

@@ -68,7 +68,7 @@ def test_bounds_are_those_of_least_squares():
     assert np.min(free["h"]) < -0.02
     assert np.min(found["h"]) > -0.01 * first
     steps = np.eye(40) - np.exp(-0.1) * np.eye(40, k=-1)
-    sigma = np.array([first, *[q * np.sqrt(0.1)] * 39])
+    sigma = np.array([first, *[q * np.sqrt((1 - np.exp(-0.2)) / 2)] * 39])
     for last in (20, 30, 39):
         n = last + 1
         rows = np.concatenate([(steps / sigma[:, None])[:n, :n], np.eye(n) / r])
