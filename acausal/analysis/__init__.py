@@ -31,3 +31,4 @@ from acausal.analysis.operating_point import (
     operating_point as operating_point,
 )
 from acausal.analysis.switches import in_switches as in_switches
+from acausal.analysis.tracking import parts_of_steps as parts_of_steps

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, cast
@@ -42,7 +43,14 @@ from acausal.analysis.tracking import (
 )
 from acausal.codegen import Packed, Values
 from acausal.data import Data, Record, noise_level
-from acausal.errors import DataError, known_name, need_compiled, need_whole, shown
+from acausal.errors import (
+    DataError,
+    known_name,
+    need_compiled,
+    need_whole,
+    shown,
+    user_level,
+)
 from acausal.modeling import names_in
 from acausal.simulation import (
     Steps,
@@ -177,6 +185,15 @@ def estimate(
     else:
         raise DataError(f"noise={shown(noise)}: give 'fit', or numbers by name of a state.")
     found = filtered(q, r, how)
+    if (
+        not traced(found.mean)
+        and (lost := np.flatnonzero(~np.isfinite(found.mean).all(axis=1))).size
+    ):
+        warnings.warn(
+            f"The estimates are not finite from t = {float(path.t[lost[0]]):g} s on: the model diverges in its steps "
+            "there. Give a smaller dt=, solver='kvaerno3' for a stiff model, a nearer x0=, or more noise=.",
+            stacklevel=user_level(),
+        )
     levels = dict(zip(names, q[: len(names)], strict=True))
     result = Estimation.of(path, found, measured, levels, dict(zip(known, r, strict=True)))
     return result.smooth() if smooth else result
@@ -316,7 +333,8 @@ def _sizes(path: AlongRecord, start: Values, measured: Measured) -> Float[Array,
     Of states that run away it is the part that the sensors show of their range.
     """
     (x, shown), nominal = _open_loop(path, start), jnp.asarray(path.model.system.nominal)
-    early, late, whole = (jnp.ptp(part, axis=0) for part in (*jnp.array_split(x, 2), x))
+    middle = len(x) // 2
+    early, late, whole = (jnp.ptp(part, axis=0) for part in (x[: middle + 1], x[middle:], x))
     seen = jnp.max(jnp.abs(measured.y), axis=0)
     far = jnp.max(jnp.where(seen > 0, jnp.max(jnp.abs(shown), axis=0) / seen, 0.0))
     half = whole / 2 / jnp.where((far > RUN_AWAY) & (late > GROWS * early), far, 1.0)

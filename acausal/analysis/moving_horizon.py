@@ -128,7 +128,7 @@ class _Window(NamedTuple):
     """What is known of W rows.
 
     Attributes:
-        arrival: the belief before the first row's measurement. measured: of all rows. sigma: of random walks over steps.
+        arrival: the belief before the first row's measurement. measured: of all rows. sigma: of walks over steps.
     """
 
     arrival: Belief

@@ -172,12 +172,17 @@ class Observer(ByName):
             )
         row = self._row.copy()
         row[0], row[1 : 1 + len(system.inputs)] = t, now
+        if not (is_known := np.isfinite(row[1 : 1 + len(system.inputs)])).all():
+            name = system.inputs[int(np.argmin(is_known))]
+            raise DataError(
+                f"u: '{name}' is not finite at t={t:g} s; give a number, such as the last one."
+            )
         for name, value in by_name(y, "y", "measurements by name").items():
             if name not in self._places:
                 known = ", ".join(self._places)
                 raise DataError(f"y: '{name}' is not a sensor; the observer has {known}.")
-            if not (is_real(value) and np.ndim(value) == 0):
-                raise DataError(f"y: '{name}' is {shown(value)}; give a number, or NaN.")
+            if not (is_real(value) and np.ndim(value) == 0) or np.isinf(value):
+                raise DataError(f"y: '{name}' is {shown(value)}; give a finite number, or NaN.")
             row[self._places[name]] = value
         for each in self._back_to(row) if is_late else [row]:
             if self._late:

@@ -116,7 +116,7 @@ class TrackedModel(eqx.Module):
     def noise(
         self, z: Float[Array, " m"], step: Steps, sigma: Float[Array, " m"]
     ) -> Float[Array, "m m"]:
-        """The covariance that random walks, of these deviations over a step, add to an estimate, as the model moves it."""
+        """The covariance that random walks, of these deviations over a step, add to an estimate."""
 
         def rates(z: Float[Array, " m"]) -> Float[Array, " m"]:
             dx = self.system.rates(self.values(step.t, z, step.inputs.start))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from acausal._jax import is_number
+from acausal._jax import is_number, is_real
 from acausal.errors import DataError, known_name, shown
 
 if TYPE_CHECKING:
@@ -95,7 +95,8 @@ class Goals:
                 raise DataError(
                     f"control.mpc: limits: '{name}' is given, not decided; leave it out."
                 )
-            if np.shape(pair) != (2,) or not pair[0] < pair[1]:
+            if np.shape(pair) != (2,) or not (is_real(pair) and pair[0] < pair[1]):
                 raise DataError(
-                    f"control.mpc: limits of '{name}' are (lowest, highest), not {shown(pair)}."
+                    f"control.mpc: limits of '{name}' are (lowest, highest), the one below the other, or None for one "
+                    f"that there is not; not {shown(pair)}."
                 )

@@ -18,6 +18,7 @@ from jaxtyping import Float
 
 import acausal.simulation as simulation
 from acausal._jax import check_time, is_number, is_real
+from acausal.analysis import parts_of_steps
 from acausal.control.goals import Goals, Limits, Weights
 from acausal.control.sizes import TypicalSizes, sizes
 from acausal.control.transcription import METHODS, NonlinearProgram, program
@@ -103,7 +104,8 @@ def mpc(
         limits: lowest and highest values of inputs, which hold, and of variables, which hold where they can.
         terminal: how many times the last sample's errors count.
         params: of the model, such as those of a fit; by default its own.
-        method: ``"collocation"`` (Radau, for stiff models, too), or ``"rk4"``, one step from sample to sample.
+        method: ``"collocation"`` (Radau, for stiff models, too), or ``"rk4"``, in as many equal steps from sample to
+            sample as the fastest mode at the start needs.
         max_iterations: of IPOPT for each plan.
 
     Raises:
@@ -120,7 +122,10 @@ def mpc(
         by_name(track, "control.mpc: track", "weights by name"),
         by_name(effort, "control.mpc: effort", "weights by name"),
         by_name(change, "control.mpc: change", "weights by name"),
-        by_name(limits, "control.mpc: limits", "(low, high) by name"),
+        {
+            name: _open(pair)
+            for name, pair in by_name(limits, "control.mpc: limits", "(low, high) by name").items()
+        },
         terminal,
     )
     goals.check(system)
@@ -134,10 +139,34 @@ def mpc(
     given = tuple(n for n in system.inputs if n not in effort)
     order = [(*goals.decided, *given).index(name) for name in system.inputs]
     model = casadi(system, params, outputs=goals.observed)
-    solver = program(
-        model, goals, order, len(system.states), float(dt), steps, method, max_iterations
-    )
+    n, parts = len(system.states), _parts(system, params, float(dt)) if method == "rk4" else 1
+    solver = program(model, goals, order, n, float(dt), steps, method, parts, max_iterations)
     return MPC(system, params, float(dt), steps, goals, given, solver)
+
+
+def _open(pair: Any) -> Any:
+    """A pair of limits, infinite where there is none."""
+    if not isinstance(pair, tuple | list) or len(pair) != 2:
+        return pair
+    low, high = pair
+    return -np.inf if low is None else low, np.inf if high is None else high
+
+
+def _parts(system: System, params: Mapping[str, Any] | None, dt: float) -> int:
+    """How many explicit steps follow the fastest mode of a model at its start within a sample time.
+
+    Raises:
+        DataError: if these are too many.
+    """
+    packed = system.pack({**system.parameters(), **by_name(params, "params", "values by name")})
+    at = system.values(0.0, system.initial_state(packed), system.input_values(None), packed)
+    parts = parts_of_steps(system, at, dt)
+    if parts is None:
+        raise DataError(
+            f"control.mpc: method='rk4' is unstable within dt={dt:g} s, as the model has much faster modes; take "
+            "'collocation'."
+        )
+    return parts
 
 
 class MPC:

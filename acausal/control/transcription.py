@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -32,13 +33,19 @@ def collocated(ca: Any, rates: Rates, dt: float, t: Any, x: Any, inner: Any, u: 
     return [slopes[:, j] - dt * rates(t + s * dt, inner[:, j], u) for j, s in enumerate(places)]
 
 
-def stepped(ca: Any, rates: Rates, dt: float, t: Any, x: Any, inner: Any, u: Any) -> list[Any]:
-    """What is zero where the end follows from one step of classical Runge-Kutta: multiple shooting."""
-    k1 = rates(t, x, u)
-    k2 = rates(t + dt / 2, x + dt / 2 * k1, u)
-    k3 = rates(t + dt / 2, x + dt / 2 * k2, u)
-    k4 = rates(t + dt, x + dt * k3, u)
-    return [inner[:, 0] - x - dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)]
+def stepped(
+    ca: Any, rates: Rates, dt: float, t: Any, x: Any, inner: Any, u: Any, parts: int = 1
+) -> list[Any]:
+    """What is zero where the end follows from equal steps of classical Runge-Kutta: multiple shooting."""
+    h = dt / parts
+    for k in range(parts):
+        start = t + k * h
+        k1 = rates(start, x, u)
+        k2 = rates(start + h / 2, x + h / 2 * k1, u)
+        k3 = rates(start + h / 2, x + h / 2 * k2, u)
+        k4 = rates(start + h, x + h * k3, u)
+        x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    return [inner[:, 0] - x]
 
 
 METHODS = {"collocation": (collocated, DEGREE), "rk4": (stepped, 1)}
@@ -114,6 +121,7 @@ def program(
     dt: float,
     steps: int,
     method: str,
+    parts: int,
     iterations: int,
 ) -> NonlinearProgram:
     """The program of a horizon; its parameters: state, time, last inputs, references, given inputs, and typical sizes.
@@ -122,7 +130,7 @@ def program(
         model: a CasADi function from ``t, x, u`` to ``der(x)`` and the observed variables.
         order: of the decided inputs, followed by the given ones, in ``u``.
         n: how many states there are. dt: the sample time. steps: how many samples.
-        method: one of `METHODS`. iterations: of IPOPT at most.
+        method: one of `METHODS`. parts: steps of Runge-Kutta in a sample time. iterations: of IPOPT at most.
     """
     import casadi
 
@@ -130,6 +138,7 @@ def program(
     m, bounded = len(goals.decided), goals.bounded
     size, unit, weight = ca.MX.sym("size", n), ca.MX.sym("unit", m), ca.MX.sym("weight")
     defects, points = METHODS[method]
+    defects = partial(stepped, parts=parts) if defects is stepped else defects
     u, x = ca.MX.sym("u", m, steps), ca.MX.sym("x", n, steps * points)
     slack = ca.MX.sym("slack", len(bounded), steps)
     x0, t0, before = ca.MX.sym("x0", n), ca.MX.sym("t0"), ca.MX.sym("before", m)

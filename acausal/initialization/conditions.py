@@ -32,8 +32,8 @@ from acausal.codegen import (
 from acausal.flattening import Binding, FlatModel, LeavesCaches
 from acausal.structure import ReducedModel
 
-
 OPEN, DEPENDENT = 1e3, 1e6
+"""How far states of which nobody has given a start move where others move by 1; those that depend on the rest."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Conditions(LeavesCaches):
     def mobility(self) -> np.ndarray:
         """How far each state may move for the conditions, in nominal values, where another one moves by 1.
 
-        Of states that are tied to each other, those whose start nobody has given move first, dependent ones before others.
+        Of states that are tied to each other, those whose start nobody has given move first; of these, dependent ones.
         """
         n, tied = len(self.start_of), [p.states for p in self.reduced.projections]
         dependent = np.isin(

@@ -24,7 +24,7 @@ from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.projected_states import Projection
 from acausal.structure.singularity import explain_singularity
 from acausal.structure.sparse_loops import SparseLoop
-from acausal.structure.state_selection import Selection, select_states
+from acausal.structure.state_selection import StateSelection, select_states
 
 OFF_ZERO = 1e-3
 
@@ -193,7 +193,7 @@ def reduce(model: FlatModel) -> ReducedModel:
 # -- solving order ------------------------------------------------------------------------------------
 
 
-def _order(system: Equations, selection: Selection) -> ReducedModel:
+def _order(system: Equations, selection: StateSelection) -> ReducedModel:
     states = selection.states
     solved = set(states)
     check_jumps(system.model, system.aliases, solved)

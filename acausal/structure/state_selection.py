@@ -19,14 +19,14 @@ DEFAULT = float(STATE_SELECT.index("default"))
 
 
 @dataclass(frozen=True)
-class Selection:
+class StateSelection:
     """The states, of which some are `projected` on the constraints."""
 
     states: list[int]
     projections: list[Projection]
 
 
-def select_states(system: Equations) -> Selection:
+def select_states(system: Equations) -> StateSelection:
     """Choose dummy derivatives (Mattsson & Soderlind 1993) and keep the most preferred variables as states.
 
     Where equally preferred variables are tied by constraints that none of them fulfils everywhere, all are states.
@@ -78,7 +78,7 @@ def select_states(system: Equations) -> Selection:
     ]
     projections = project(system, mechanisms[::-1], dependent, points)
     states += [s for p in projections for s in p.states]
-    return Selection(sorted(states, key=lambda s: system.meant.get(s, s)), projections)
+    return StateSelection(sorted(states, key=lambda s: system.meant.get(s, s)), projections)
 
 
 def _independent(

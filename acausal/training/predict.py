@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any, NamedTuple
@@ -14,9 +15,10 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import compiled, is_number, levenberg_marquardt, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, known_name, listing, shown
+from acausal.errors import DataError, known_name, listing, shown, user_level
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import by_name
+from acausal.simulation import Adaptive
 from acausal.training.conformal import Conformal
 from acausal.training.objective.held_out import over
 from acausal.training.objective.initial_state import InitialState, by_record, check_records
@@ -29,6 +31,9 @@ from acausal.training.record_fit import RecordFit, of_records
 from acausal.training.trained_model import TrainedModel, out_of_range
 from acausal.training.uncertainty.bumps import Bumped, bumped_law, with_changes
 from acausal.training.uncertainty.confidence import Band, Confidence
+
+IN_NOISE, TINY, FINEST = 0.3, 1e-4, 64
+"""What half as long steps may change, relative to the noise or at least the signal; most steps between two samples."""
 
 UPDATES = 50
 """At most so many steps find what a record has for itself."""
@@ -118,12 +123,11 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
     """Predictions of some records in one program; they do not know of each other."""
     fit, conformal = shared
     system, targets = fit.system, fit.problem.targets
-    own = _own(fit, some)
-    problem, confidence = own.problem, fit.confidence()
+    confidence = fit.confidence()
     least = np.array([confidence.noise[n] * np.sqrt(confidence.alike[n]) for n in targets])
-    certainty = np.sqrt(np.asarray(problem.records.weight)) / np.maximum(least, 1e-300)
-    values = _found(own, certainty)
-    trainable = own.moved(values)
+    own, values = _in_fine_steps(fit, _own(fit, some), np.maximum(least, 1e-300))
+    problem, trainable = own.problem, own.moved(values)
+    certainty = _certainty(own, np.maximum(least, 1e-300))
     if conformal is None:
         sigma = _deviations(own, values, certainty, fit, confidence)
     else:
@@ -148,6 +152,54 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
 
     named = zip(some.records, made.values(), strict=True)
     return {n: one(k, replace(r, name=n)) for k, (n, r) in enumerate(named)}
+
+
+def _in_fine_steps(
+    fit: TrainedModel, own: Own, noise: Float[np.ndarray, " n_targets"]
+) -> tuple[Own, Float[np.ndarray, "R m"]]:
+    """What records have for themselves, as they are found in steps whose errors stay below a part of the noise.
+
+    The steps of a training were right for its records; others may move faster. Where they were not even that, a
+    warning says so.
+    """
+    values = _found(own, _certainty(own, noise))
+    if isinstance(own.problem.solver, Adaptive) or own.problem.system.events is not None:
+        return own, values
+    while own.problem.substeps < FINEST:
+        change = _change(own.problem, own.moved(values))
+        allowed = np.maximum(IN_NOISE * noise, TINY * np.asarray(own.problem.records.sigma))
+        if (change <= allowed).all():
+            break
+        if (
+            own.problem.substeps == fit.problem.substeps
+            and ((of_fit := _change(fit.problem, fit.trained)) > allowed).any()
+        ):
+            i = int(np.argmax(of_fit / allowed))
+            name = fit.problem.targets[i]
+            warnings.warn(
+                f"predict: steps of the fit are too long: half as long ones change '{name}' of its records by up to "
+                f"{of_fit[i]:.3g} {fit.system.unit(name)} and that of these by {change[i]:.3g}, the noise is "
+                f"{noise[i]:.2g}. Fit with a smaller dt=, or by strategy='auto', which chooses them.",
+                stacklevel=user_level(),
+            )
+            break
+        own = replace(own, problem=own.problem.finer())
+        values = _found(own, _certainty(own, noise))
+    return own, values
+
+
+def _change(problem: Problem, trainable: Trainable) -> Float[np.ndarray, " n_targets"]:
+    """How much steps of half the length change each target, at most; infinite where they end what diverges."""
+    coarse, fine = (np.asarray(p.simulate(trainable).y) for p in (problem, problem.finer()))
+    change = np.where(np.isfinite(coarse), np.abs(coarse - fine), np.inf)
+    return np.max(np.where(np.isfinite(fine), change, 0.0), axis=0, initial=0.0)
+
+
+def _certainty(
+    own: Own, noise: Float[np.ndarray, " n_targets"]
+) -> Float[np.ndarray, "N n_targets"]:
+    """What a deviation of each sample is divided by the noise with; zero where nothing is measured."""
+    return np.sqrt(np.asarray(own.problem.records.weight)) / noise
 
 
 def _own(fit: TrainedModel, some: _Some) -> Own:

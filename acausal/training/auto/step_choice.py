@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.data import Data
-from acausal.simulation import for_fixed_steps, inner_fractions, solver_named
+from acausal.simulation import for_fixed_steps, solver_named
 from acausal.training.objective.losses import LEAST
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
@@ -51,10 +51,7 @@ class StepChoice(NamedTuple):
         """A problem with these steps."""
         assert self.solver is not None
         scheme = for_fixed_steps(solver_named(self.solver, fixed=False))
-        fractions = inner_fractions(scheme, self.parts)
-        delayed = replace(problem.records.delayed, fractions=fractions)
-        records = replace(problem.records, delayed=delayed)
-        return replace(problem, records=records, solver=scheme, substeps=self.parts)
+        return replace(problem, solver=scheme).in_parts(self.parts)
 
 
 def allowed_error(loss: float) -> float:

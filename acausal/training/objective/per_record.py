@@ -64,10 +64,9 @@ class PerRecord(eqx.Module):
     def expected(
         self, moves: Mapping[str, Float[Array, " R"]], records: int
     ) -> dict[str, Float[Array, " records"]]:
-        """What to expect of other records: the common value, and the mean of those found where they are free."""
+        """What to expect of other records: the mean of those that the training has found."""
         return {
-            n: jnp.full(records, (1 - tied) * jnp.average(moves[n], weights=self.trained))
-            for n, tied in zip(self.names, self.tied, strict=True)
+            n: jnp.full(records, jnp.average(moves[n], weights=self.trained)) for n in self.names
         }
 
     def log_prior(self, moves: Mapping[str, Float[Array, " R"]]) -> Float[Array, ""]:

@@ -15,6 +15,7 @@ from jaxtyping import Array, Float, Int, PRNGKeyArray
 from acausal._jax import compiled
 from acausal.analysis import arguments
 from acausal.codegen import Values
+from acausal.simulation import inner_fractions
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.initial_state import STEADY
 from acausal.training.objective.losses import Loss, number
@@ -162,7 +163,13 @@ class Problem(Simulator):
 
     def finer(self) -> Problem:
         """The same in steps of half the length."""
-        return replace(self, substeps=2 * self.substeps)
+        return self.in_parts(2 * self.substeps)
+
+    def in_parts(self, parts: int) -> Problem:
+        """The same with so many steps from sample to sample."""
+        fractions = inner_fractions(self.solver, parts)
+        delayed = replace(self.records.delayed, fractions=fractions)
+        return replace(self, records=replace(self.records, delayed=delayed), substeps=parts)
 
     def held_out_loss(self, trainable: Trainable) -> Float[Array, ""]:
         """The loss of these records, which were not trained on, in one simulation of each."""
