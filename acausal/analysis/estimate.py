@@ -306,16 +306,22 @@ def _lay_out(
     u = evaluate_all(functions, jnp.asarray(ts))
     seen = np.full((len(ts), len(known)), np.nan)
     seen[np.searchsorted(ts, data.time)] = data.columns(known, "a sensor")
-    exact = isinstance(x0, str)
-    begun = (
-        {} if exact else {n: v for n, v in zip(known, seen[0], strict=True) if n in system.states}
-    )
-    begun = {n: v for n, v in begun.items() if np.isfinite(v)} | ({} if exact else dict(x0 or {}))
+    given = x0 if isinstance(x0, str) else dict(x0 or {})
+    shown = {} if isinstance(x0, str) else dict(zip(known, seen[0], strict=True))
+    begun = {
+        n: v for n, v in shown.items() if n in system.states and np.isfinite(v) and n not in given
+    }
+    places = [system.states.index(n) for n in begun]
+    close = not system.reduced.exact.all()  # states that are measured may be off their constraints
 
     def at(packed: Packed) -> Values:
-        chosen: Any = x0 if exact else begun or None
-        x = system.initial_state(packed, chosen, inputs=u[0], t0=span[0])
-        return system.modes(system.values(span[0], x, u[0], packed))
+        chosen: Any = given if isinstance(given, str) or close else {**begun, **given}
+        x = system.initial_state(packed, chosen or None, inputs=u[0], t0=span[0])
+        start = system.values(span[0], x, u[0], packed)
+        if close and begun:
+            x = x.at[np.asarray(places)].set(np.array([*begun.values()]))
+            start = start._replace(x=system.closed(start._replace(x=x)))
+        return system.modes(start)
 
     model = make_model(
         system, tuple(known), drifting, params, at, float(np.max(np.diff(ts))), dt, solver

@@ -111,5 +111,5 @@ def _stopped(names: list[str], origins: Sequence[Origin], values: Array, residua
         f"Newton's method finds no solution of the equations for {listing(names)}; "
         f"the nearest point is {at}, which leaves {listing(left, 6)}. "
         "Give start values nearer to the solution (ac.Start), check the parameters, or, where a mechanism passes a "
-        "dead point of its states, choose others (stateSelect)."
+        "dead point of its states, prefer no one of them (stateSelect): then all are states."
     )

@@ -27,6 +27,8 @@ from acausal.structure.sparse_loops import SparseLoop
 from acausal.structure.state_selection import StateSelection, select_states
 
 OFF_ZERO = 1e-3
+AUXILIARY = "auxiliary"
+"""What a node is called that stands for no variable, such as a multiplier."""
 
 
 @dataclass(frozen=True)
@@ -170,7 +172,8 @@ class ReducedModel(LeavesCaches):
         node = int(self.meant[node])
         if node < self.model.n_variables:
             return self.model.layout.variable(node)
-        return f"der({self.name(int(self.base[node]))})"
+        base = int(self.base[node])
+        return f"der({self.name(base)})" if base >= 0 else AUXILIARY
 
 
 def reduce(model: FlatModel) -> ReducedModel:

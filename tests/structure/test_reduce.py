@@ -141,7 +141,7 @@ def test_signs_survive_differentiation():
         yield Eq(s.z, s.x * der(s.x))
 
     system = ac.compile(Equations("x y v w f z", stated))
-    assert len(system.states) == 2
+    assert len(system.states) == 4
     assert worst(system) < 1e-10
 
 
@@ -208,7 +208,7 @@ def test_a_voltage_on_a_capacitor_is_differentiated():
 
 
 def test_the_pendulum_in_cartesian_coordinates():
-    system = ac.compile(Pendulum(x=ac.Start(0.6), y=ac.Start(-0.8)))
+    system = ac.compile(Pendulum(x=ac.Start(0.6, state="prefer"), y=ac.Start(-0.8)))
     assert system.states == ("x", "v")
     params = system.parameters()
     x = jnp.array([0.6, 0.0])
@@ -219,10 +219,18 @@ def test_the_pendulum_in_cartesian_coordinates():
     assert worst(system) < 1e-9
 
 
+def independent(model):
+    """The states from which the others follow at the start."""
+    found = reduce(flatten(model))
+    dependent = [s for p in found.projections for s in p.dependent]
+    return [found.name(int(s)) for s in found.states if s not in dependent]
+
+
 @pytest.mark.parametrize(("start", "state"), [((1.0, 0.0), "y"), ((0.0, -1.0), "x")])
 def test_states_are_chosen_that_work_where_the_model_starts(start, state):
-    system = ac.compile(Pendulum(x=ac.Start(start[0]), y=ac.Start(start[1])))
-    assert system.states[0] == state
+    pendulum = Pendulum(x=ac.Start(start[0]), y=ac.Start(start[1]))
+    assert independent(pendulum)[0] == state
+    system = ac.compile(pendulum)
     assert np.isfinite(rates(system, system.initial_state())).all()
 
 
@@ -233,7 +241,7 @@ def test_starts_that_a_class_declares_count_as_those_that_modifiers_give():
             del self.x
             self.x = ac.Variable(start=1.0)
 
-    assert ac.compile(Lying()).states == ("y", "w")
+    assert independent(Lying()) == ["y", "w"]
 
 
 def test_a_start_that_is_given_counts_more_than_that_of_another_name():
@@ -246,7 +254,7 @@ def test_a_start_that_is_given_counts_more_than_that_of_another_name():
             yield from super().equations()
             yield ac.Eq(self.height, self.y)
 
-    assert ac.compile(Named()).states == ("y", "w")
+    assert independent(Named()) == ["y", "w"]
 
 
 @pytest.mark.parametrize("n", [3, 6])

@@ -20,7 +20,7 @@ MODELS = {
     "nonlinear loops": (lambda: Ladder(4, DiodeAndResistor), 10),
     "linear loops": (lambda: Ladder(4, Bridge), 10),
     "rigid trains": (lambda: Trains(3, 4), 9),
-    "planar pendulum": (Pendulum, 3),
+    "planar pendulum": (Pendulum, 16),
 }
 
 

@@ -41,6 +41,9 @@ def worst(system: ac.System, seed: int = 0, points: int = 2, params: Any = None)
         x = rng.uniform(0.2, 1.0, len(system.states))
         u = rng.uniform(0.2, 1.0, len(system.inputs))
         t = float(rng.uniform(0.1, 0.9))
+        x = np.asarray(
+            system.closed(Values(jnp.asarray(t), jnp.asarray(x), jnp.asarray(u), packed))
+        )
         largest = float(np.max([0.0, *_by_name(system, evaluate_all(t, x, u)).values()]))
         result = float(np.max([result, largest / max(1.0, np.abs(x).max(initial=0.0))]))
     return result
