@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
 
 import jax
 import jax.numpy as jnp
@@ -435,7 +435,7 @@ def _independent(system: System, at: Values) -> tuple[np.ndarray, Array]:
     if not system.reduced.gaps:
         return np.arange(n), jnp.eye(len(at.x), n)
     moved = np.asarray(jax.jacfwd(lambda x: system.closed(at._replace(x=x)))(at.x))
-    order = qr(moved[:n].T, pivoting=True, mode="r")[1]
+    _, order = cast(Any, qr(moved[:n].T, pivoting=True, mode="r"))
     chosen = np.sort(order[: n - len(system.reduced.gaps)])
     return chosen, jnp.asarray(moved @ np.linalg.pinv(moved[chosen]))
 

@@ -29,7 +29,10 @@ from acausal.structure.jacobian import Point, is_constant, parameter_values, par
 
 @dataclass
 class Equations:
-    """All equations by number, and the graph of their unknowns; index reduction extends both."""
+    """All equations by number, and the graph of their unknowns; index reduction extends both.
+
+    ``meant`` gives the variable that a node without a name is called as, and close to.
+    """
 
     model: FlatModel
     aliases: AliasFree

@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -26,11 +27,16 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from acausal.flattening import Template, interned
+from acausal.structure.blocks import LARGE
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import Point, is_constant, partials
 
 ALWAYS = 2
+"""The rank of what is torn in any case (`Equations.tear_ranks`)."""
+
 SMALL = 1e-9
+"""A difference of factors that is smaller, relative to these, is rounding."""
+
 Row = dict[int, float | None]
 """The partial derivatives of a constraint by variable; None where one is not constant."""
 
@@ -65,6 +71,8 @@ def find_mechanisms(
 ) -> list[Mechanism]:
     """The connected parts of ``constraints`` that are not solved by constant factors, and prefer no states.
 
+    Those that would become a loop which is too large to be torn are left out, and those of which a variable jumps at events.
+
     Arguments:
         preferences: of the variables that may be states, the least preferred first.
     """
@@ -81,7 +89,9 @@ def find_mechanisms(
             continue
         followers = _closure(system, part, pivots)
         explicit = [pivots[v] for v in followers]
-        found.append(Mechanism(sorted(part), coordinates, explicit, followers))
+        mechanism = Mechanism(sorted(part), coordinates, explicit, followers)
+        if len(mechanism.equations) + len(coordinates) <= LARGE:
+            found.append(mechanism)
     return found
 
 
@@ -259,7 +269,9 @@ def _project(
 def _slopes(add: _Writer, mechanism: Mechanism, scales: Sequence[float]) -> dict[int, list[int]]:
     """For every coordinate the nodes of the derivatives of all constraints by it, through followers, at the states."""
     system = add.system
-    terms: dict[int, dict[int, _Term]] = {v: {} for v in mechanism.variables}
+    terms: dict[int, dict[int, _Term]] = {
+        v: {} for v in (*mechanism.followers, *mechanism.coordinates)
+    }
     for e in (*mechanism.constraints, *mechanism.explicit):
         for column, v in enumerate(system.variables[e]):
             if v in terms:
@@ -267,18 +279,13 @@ def _slopes(add: _Writer, mechanism: Mechanism, scales: Sequence[float]) -> dict
     slopes: dict[int, list[int]] = {q: [] for q in mechanism.coordinates}
     for constraint, scale in zip(mechanism.constraints, scales, strict=True):
         factors = {e: system.new_node() for e in mechanism.explicit}
-
-        def through(
-            v: int, own: int = constraint, scale: float = scale, factors: dict[int, int] = factors
-        ) -> list[_Term]:
-            found = [terms[v][e].times(factor) for e, factor in factors.items() if e in terms[v]]
-            return [terms[v][own].scaled(scale), *found] if own in terms[v] else found
-
-        for v in mechanism.followers:
-            add.sum([], through(v))
-        for q in mechanism.coordinates:
-            slopes[q].append(system.new_node())
-            add.sum([(slopes[q][-1], 1.0)], through(q))
+        for v, own in terms.items():
+            total = [own[e].times(factor) for e, factor in factors.items() if e in own]
+            if constraint in own:
+                total.append(own[constraint].scaled(scale))
+            if v in slopes:
+                slopes[v].append(system.new_node())
+            add.sum([(slopes[v][-1], 1.0)] if v in slopes else [], total)
     return slopes
 
 
@@ -332,7 +339,8 @@ class _Writer:
 
     def value(self, equation: int, expression: sp.Expr) -> int:
         """A node for an expression in the slots of an equation."""
-        system, node, own = self.system, self.system.new_node(), sp.Symbol("own", real=True)
+        system, node = self.system, self.system.new_node()
+        own = sp.Symbol("new value", real=True)  # no variable is called so
         template, present = system.template[equation], expression.free_symbols
         slots = (
             (template.variables, [self.near.get(v, v) for v in system.variables[equation]]),
@@ -367,7 +375,7 @@ class _Writer:
         for term in terms:
             own = [sp.Symbol(f"v{len(slots) + i}", real=True) for i in range(len(term.nodes))]
             new = [sp.Symbol(f"p{len(named) + i}", real=True) for i in range(len(term.symbols))]
-            factor = term.factor.xreplace(dict(zip(term.symbols, new, strict=True)))
+            factor: Any = term.factor.xreplace(dict(zip(term.symbols, new, strict=True)))
             residual -= sp.Mul(factor, *own)
             slots += own
             named += new
@@ -416,6 +424,7 @@ def _scales(
     equations = [*mechanism.constraints, *mechanism.explicit]
     places = {v: i for i, v in enumerate((*mechanism.coordinates, *mechanism.followers))}
     m, n = len(mechanism.constraints), len(mechanism.coordinates)
+    sizes = np.zeros(m)
     for point in points:
         jacobian = np.zeros((len(equations), len(places)))
         for row, node, value in zip(*system.jacobian(equations, point), strict=True):
@@ -427,4 +436,4 @@ def _scales(
         sizes = np.linalg.norm(slopes, axis=1)
         if sizes.min() > SMALL * sizes.max():
             break
-    return [2.0 ** -round(math.log2(size)) if size > 0 else 1.0 for size in sizes]
+    return [2.0 ** -round(math.log2(size)) if size > 0 else 1.0 for size in sizes.tolist()]
