@@ -71,7 +71,7 @@ def find_mechanisms(
 ) -> list[Mechanism]:
     """The connected parts of ``constraints`` that are not solved by constant factors, and prefer no states.
 
-    Those that would become a loop which is too large to be torn are left out, and those of which a variable jumps at events.
+    Those that would become a loop which is too large to be torn are left out, and those whose variables jump at events.
 
     Arguments:
         preferences: of the variables that may be states, the least preferred first.

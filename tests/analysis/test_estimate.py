@@ -16,10 +16,12 @@ from acausal.analysis.filtering import (
     Measured,
     by_derivatives,
     by_points,
+    gathered as gathered_in_steps,
     run,
 )
 from examples.qvm.model import with_networks
 from tests.support.oscillator import C, D, M, force, plain
+from tests.support.parts import Equations
 
 H, N, R, Q = 0.05, 60, 0.02, 0.3
 GIVEN = {
@@ -111,6 +113,64 @@ def test_the_order_of_sensors_changes_nothing_and_an_ensemble_is_near():
     many = ac.estimate(plain(), data, "enkf", members=2000, **GIVEN)
     off = (many.x - found.x) / np.sqrt(np.diagonal(found.covariance, 0, 1, 2))
     assert np.sqrt(np.mean(off**2)) < 0.15
+
+
+class Lag(ac.Component):
+    """What forgets within a second."""
+
+    x = ac.Variable(start=0.0)
+    u = ac.Input()
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u - self.x)
+
+
+@pytest.mark.parametrize("h", [0.2, 5.0])
+def test_noise_means_the_same_however_far_samples_are_apart(h: float):
+    """White noise of density q² on a lag of T has the variance q² T / 2."""
+    t = h * np.arange(12)
+    lag, data = ac.compile(Lag()), ac.Data(t, {"u": 0 * t, "x": 0 * t})
+    found = ac.estimate(lag, data, noise={"x": 1.0}, sensors={"x": 1e4}, states={"x": 0.7})
+    assert float(found.deviation("x")[-1]) == pytest.approx(np.sqrt(0.5), rel=1e-3)
+
+
+def test_noise_gathers_as_the_integral_says():
+    A = np.array([[0.0, 1.0], [-4.0, -0.3]])
+    found = gathered_in_steps(jnp.asarray(3 * A), jnp.array([0.1, 0.4]), 14)
+    wanted = gathered(3 * A, np.diag([0.01, 0.16]), 1.0)
+    np.testing.assert_allclose(found, wanted, rtol=1e-6, atol=1e-9)
+    unstable = gathered_in_steps(1e5 * jnp.eye(2), jnp.ones(2), 14)
+    np.testing.assert_allclose(unstable, np.eye(2))
+
+
+def test_two_rows_are_enough_and_what_is_no_number_changes_no_observer():
+    lag = ac.compile(Lag())
+    data = ac.Data([0.0, 1.0], {"x": [0.0, 0.1], "u": [0.0, 0.0]})
+    assert np.isfinite(ac.estimate(lag, data).x).all()
+    seen = ac.observer(lag, {"x": 0.1}, {"x": 0.1}, sample_time=0.1)
+    seen.step(0.0, {"u": 1.0}, {"x": 0.1})
+    with pytest.raises(ac.DataError, match="u: 'u' is not finite at t=0.1 s"):
+        seen.step(0.1, {"u": np.nan}, {"x": 0.2})
+    with pytest.raises(ac.DataError, match=r"y: 'x' is inf; give a finite number, or NaN"):
+        seen.step(0.1, {"u": 1.0}, {"x": np.inf})
+    assert np.isfinite(seen.step(0.1, {"u": 1.0}, {"x": 0.2})["x"])
+
+
+@pytest.mark.slow
+def test_an_estimate_that_diverges_says_where():
+    def stated(s):
+        yield ac.Eq(ac.der(s.x), s.y)
+        yield ac.Eq(ac.der(s.y), 100 * (1 - s.x**2) * s.y - s.x)
+
+    model = Equations("x y", stated)
+    model.modify(x=ac.Start(2.0))
+    system, t = ac.compile(model), np.arange(0, 100.0)
+    run = ac.simulate(system, t[-1], saveat=t)
+    noise = 0.05 * np.random.default_rng(0).standard_normal(100)
+    data = ac.Data(t, {"x": np.asarray(run["x"]) + noise})
+    given = {"sensors": {"x": 0.05}, "noise": {"x": 0.005}, "states": {"x": 0.05, "y": 0.01}}
+    with pytest.warns(UserWarning, match=r"not finite from t = \d+ s on: .* solver='kvaerno3'"):
+        ac.estimate(system, data, **given, solver="rk4", dt=0.5)
 
 
 @pytest.mark.slow

@@ -98,6 +98,33 @@ def test_limits_hold_and_a_wind_that_is_known_is_met() -> None:
     assert late.first["push.f"] == pytest.approx(-4.0, abs=1e-5)
 
 
+class Lagging(ac.Component):
+    """An actuator with a lag that is short against the sample time, before a slow plant."""
+
+    u = ac.Input(unit="1")
+    z = ac.Variable(unit="1", start=0.0)
+    p = ac.Variable(unit="1", start=0.0)
+    lag = ac.Parameter(0.01, unit="s")
+    rate = ac.Parameter(1.0, unit="1/s")
+
+    def equations(self):
+        yield ac.Eq(self.lag * ac.der(self.z), self.u - self.z)
+        yield ac.Eq(ac.der(self.p), self.rate * (self.z - 0.5 * self.p))
+
+
+def test_explicit_steps_follow_a_lag_that_is_short_against_the_sample_time() -> None:
+    given = {"dt": 0.1, "steps": 10, "track": {"p": 1.0}, "effort": {"u": 1e-3}}
+    start, system = {"p": 0.0, "z": 0.0}, ac.compile(Lagging())
+    plans = [
+        ac.control.mpc(system, method=m, limits={"u": (None, 5.0)}, **given)
+        for m in ("collocation", "rk4")
+    ]
+    first = [plan.step(start, reference={"p": 1.0}).first["u"] for plan in plans]
+    assert first == pytest.approx([5.0, 5.0], abs=1e-3)
+    with pytest.raises(ac.DataError, match="method='rk4' is unstable within dt=1 s"):
+        ac.control.mpc(system, method="rk4", **{**given, "dt": 1.0})
+
+
 def test_a_stiff_model_needs_collocation() -> None:
     class Stiff(ac.Component):
         x, u = ac.Variable(start=1.0), ac.Input()

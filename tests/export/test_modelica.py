@@ -182,6 +182,24 @@ def test_a_loaded_netlist(rumoca, tmp_path):
     agree(rumoca, system, ("mass.s", "slow"), 2.0, tmp_path)
 
 
+def test_what_is_outer_in_a_part_is_written(tmp_path):
+    text = """package io
+      model Env parameter Real g = 5; Real T; equation T = 2 + time; end Env;
+      model Part
+        outer Env env; Real x(start=1, fixed=true);
+      equation
+        der(x) = -env.g*x + env.T;
+      end Part;
+      model Top inner Env env; Part p; Part q(x(start=2)); end Top;
+    end io;"""
+    (tmp_path / "io.mo").write_text(text)
+    system = ac.compile(ac.load(tmp_path / "io.mo", "io.Top"))
+    written = ac.export.modelica(system, tmp_path / "written.mo")
+    assert "Part p(x(start=1, fixed=true), env_g=env.g);" in written.read_text()
+    again = ac.simulate(ac.compile(ac.load(written)), 1.0)
+    assert float(again["q.x"][-1]) == pytest.approx(float(ac.simulate(system, 1.0)["q.x"][-1]))
+
+
 def test_names_stay_apart(rumoca, tmp_path):
     system = ac.compile(Alike())
     agree(rumoca, system, ("y",), 1.0, tmp_path)

@@ -49,6 +49,63 @@ def test_a_start_that_is_not_measured_is_found_and_the_band_holds():
     assert not given.found
 
 
+class Lags(ac.Component):
+    """A fast lag before a slow one."""
+
+    K = ac.Parameter(1.0)
+    u = ac.Input()
+    z = ac.Variable(start=0.0)
+    x = ac.Variable(start=0.0)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.z) / 80, self.K * self.u - self.z)
+        yield ac.Eq(ac.der(self.x), self.z - self.x)
+
+
+def lags(u: np.ndarray, K: float, seed: int) -> ac.Data:
+    """A record of both with noise, every 50 ms."""
+    t, rng = 0.05 * np.arange(len(u)), np.random.default_rng(seed)
+    run = ac.simulate(
+        ac.compile(Lags()), t[-1], saveat=t, inputs={"u": ac.Signal(t, u)}, params={"K": K}
+    )
+    shaken = {n: np.asarray(run[n]) + 0.02 * rng.standard_normal(len(t)) for n in ("z", "x")}
+    return ac.Data(t, {"u": u, **shaken})
+
+
+@pytest.mark.slow
+def test_steps_are_as_short_as_the_new_record_needs():
+    """The training's input is slow against the fast lag, that of the new record jumps."""
+    t = 0.05 * np.arange(300)
+    fit = ac.fit(
+        ac.compile(Lags()),
+        lags(np.sin(0.5 * t), 1.3, 0),
+        ["z", "x"],
+        modifiers=["K"],
+        progress=False,
+    )
+    jumps = lags(np.sign(np.sin(2 * t + 0.1)), 1.3, 1)
+    found = fit.predict(jumps)["record"]
+    truth = ac.simulate(
+        fit.system, t[-1], saveat=t, inputs={"u": ac.Signal(t, jumps["u"])}, params=fit.params,
+        x0={"z": found.x0["z"], "x": found.x0["x"]}, rtol=1e-9, atol=1e-11,
+    )  # fmt: skip
+    assert np.max(np.abs(found.predicted[:, 0] - truth["z"])) < 0.01
+
+
+@pytest.mark.slow
+def test_without_targets_parameters_of_a_record_are_the_mean_of_those_found():
+    t = 0.05 * np.arange(200)
+    records = {str(K): lags(np.sin(t + K), K, k) for k, K in enumerate((1.8, 2.0, 2.2))}
+    fit = ac.fit(
+        ac.compile(Lags()), records, ["x"], train=[], per_record={"K": 0.1}, progress=False,
+        strategy="gauss_newton", solver="kvaerno3",
+    )  # fmt: skip
+    found = [record.parameters["K"] for record in fit.records.values()]
+    new = fit.predict(lags(np.sin(t), 2.0, 5).select(["u"]))["record"]
+    assert new.parameters["K"] == pytest.approx(np.mean(found))
+    assert new.parameters["K"] == pytest.approx(2.0, abs=0.05)
+
+
 @pytest.mark.slow
 def test_what_is_compiled_for_a_record_serves_others_of_its_length():
     parts = [noisy(clean().between(t, t + 4), k, "mass.s") for k, t in enumerate((8, 12))]

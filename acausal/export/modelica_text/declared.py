@@ -54,6 +54,13 @@ def names_in_class(node: Any) -> tuple[dict[str, str], dict[str, str], set[str]]
     return parts, held, taken
 
 
+def spelled(node: Any, name: str) -> str:
+    """The name of a declaration in its class: ``env.g``, a value of an ``outer`` component, is ``env_g``."""
+    word, bracket, index = name.partition("[")
+    is_one = "." in word and word in dict(node.declarations())
+    return (word.replace(".", "_") if is_one else word) + bracket + index
+
+
 def names_in_tree(model: Component) -> set[str]:
     """All names of elements of the classes of a model; none may be that of a class, which it would hide."""
     return {name for part in parts_of(model) for name in names_in_class(part._node)[2]}

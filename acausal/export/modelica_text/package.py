@@ -18,6 +18,7 @@ from acausal.export.modelica_text.declared import (
     names_in_class,
     names_in_tree,
     numbered,
+    spelled,
     unused,
 )
 from acausal.export.modelica_text.discrete import is_discrete, stated
@@ -193,7 +194,7 @@ class ClassWriter:
         of_library = route and self.package.standard(self.component, route[0])
         held = {} if of_library else self.package.names(reference.owner)[1]
         name, bracket, index = reference.path.partition("[")
-        local = held.get(name, name) + bracket + index
+        local = held.get(name, spelled(reference.owner, name)) + bracket + index
         return dotted([*self.package.way(self.node, route), *local.split(".")])
 
     def _without_zeros(self, stated: Any) -> Any:
@@ -325,7 +326,8 @@ class ClassWriter:
                 [f"{self.package.signal(Output())} {identifier(name)}{size};"],
                 self._held[name],
             )
-        return [*signal, f"{kind} {identifier(name)}{size}{modifiers(flat)}{about}"]
+        word = identifier(spelled(self.node, name))
+        return [*signal, f"{kind} {word}{size}{modifiers(flat)}{about}"]
 
     def _kind(self, declared: Variable) -> str:
         match declared:
@@ -392,7 +394,7 @@ class ClassWriter:
             given = value.value if isinstance(value, Start) else value
             if not lies_within(self.component, given) or (path and lies_within(top, given)):
                 continue
-            first, *rest = name.split(".")
+            first, *rest = spelled(part._node, name).split(".")
             held = self.package.names(part._node)[1]
             place = (*self.package.way(top._node, path[1:]), held.get(first, first), *rest)
             found |= self._modifier(part, name, value, place)
@@ -402,7 +404,8 @@ class ClassWriter:
         return found
 
     def _modifier(self, part: Component, name: str, value: Any, place: tuple[str, ...]) -> Flat:
-        declared = dict(part._node.declarations()).get(name.partition(".")[0])
+        every = dict(part._node.declarations())
+        declared = every.get(name, every.get(name.partition(".")[0]))
         if not isinstance(
             declared, Parameter | Variable
         ):  # also what the options of the part leave out
