@@ -149,7 +149,7 @@ def test_two_rows_are_enough_and_what_is_no_number_changes_no_observer():
     assert np.isfinite(ac.estimate(lag, data).x).all()
     seen = ac.observer(lag, {"x": 0.1}, {"x": 0.1}, sample_time=0.1)
     seen.step(0.0, {"u": 1.0}, {"x": 0.1})
-    with pytest.raises(ac.DataError, match="u: 'u' is not finite at t=0.1 s"):
+    with pytest.raises(ac.DataError, match=r"u: 'u' is not finite at t=0\.1 s"):
         seen.step(0.1, {"u": np.nan}, {"x": 0.2})
     with pytest.raises(ac.DataError, match=r"y: 'x' is inf; give a finite number, or NaN"):
         seen.step(0.1, {"u": 1.0}, {"x": np.inf})

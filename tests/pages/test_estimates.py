@@ -41,7 +41,7 @@ def test_a_page_has_sensors_and_bands(found, tmp_path):
 
 
 def test_a_notebook_and_print_say_how_consistent_the_filter_is(found):
-    assert "89 innovations, squared over their variances 0.641 on average" in repr(found)
+    assert "89 innovations, squared over their variances 0.639" in repr(found)
     view = found._repr_html_()
     for part in ("Estimation of Oscillator", "0.728 to 1.31", "spring.c", "band"):
         assert part in view

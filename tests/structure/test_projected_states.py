@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import jax
 import numpy as np
@@ -11,6 +12,7 @@ from scipy.integrate import solve_ivp
 
 import acausal as ac
 from acausal.components import planar
+from tests.support.exported_c import ExportedC, need_compiler
 from tests.support.parts import Equations, Pendulum
 
 Eq, der = ac.Eq, ac.der
@@ -77,6 +79,17 @@ def test_its_gradients_are_those_of_differences(pendulum: ac.System) -> None:
 
     slope, h = jax.grad(end)(8.0), 1e-4
     assert slope == pytest.approx(float(end(8 + h) - end(8 - h)) / (2 * h), rel=1e-4)
+
+
+@pytest.mark.slow
+def test_exported_steps_turn_over_as_simulated_ones_do(pendulum: ac.System, tmp_path: Path) -> None:
+    need_compiler()
+    model = ExportedC(pendulum, tmp_path, solver="rk4", outputs=("x", "y"))
+    found = ac.simulate(pendulum, 2.0, dt=1e-3, solver="rk4")
+    for _ in range(2000):
+        assert model.step(1e-3) == 0
+    np.testing.assert_allclose(model.outputs(), [found["x"][-1], found["y"][-1]], atol=1e-9)
+    assert np.sum(model.outputs() ** 2) == pytest.approx(1.0, abs=1e-12)
 
 
 def preferring() -> ac.Component:

@@ -180,9 +180,14 @@ def _stopped(
             "a shorter dt, or leave dt out for adaptive steps."
         )
     if why != EXHAUSTED:
+        loops = [name for name, _ in run.system.reduced.solved_positions]
+        dead = (
+            f" Or a loop passes a dead point of its states, from which {listing(loops, 3)} follow: prefer none of its "
+            "joints (stateSelect), then all are states."
+        )
         return SimulationError(
-            f"{where}: its steps became too small, or its values not finite{last}. "
-            "The model may diverge there: check its parameters, initial values and inputs."
+            f"{where}: its steps became too small, or its values not finite{last}. The model may diverge there: check "
+            f"its parameters, initial values and inputs.{dead if loops else ''}"
         )
     slides = "" if found.log is None else f"It has had {int(found.log.total)} events{last}. "
     if jump := run.explain_jump(at, ahead):
