@@ -170,18 +170,17 @@ def _in_fine_steps(
         allowed = np.maximum(IN_NOISE * noise, TINY * np.asarray(own.problem.records.sigma))
         if (change <= allowed).all():
             break
-        if (
-            own.problem.substeps == fit.problem.substeps
-            and ((of_fit := _change(fit.problem, fit.trained)) > allowed).any()
-        ):
-            i = int(np.argmax(of_fit / allowed))
-            name = fit.problem.targets[i]
-            warnings.warn(
-                f"predict: steps of the fit are too long: half as long ones change '{name}' of its records by up to "
-                f"{of_fit[i]:.3g} {fit.system.unit(name)} and that of these by {change[i]:.3g}, the noise is "
-                f"{noise[i]:.2g}. Fit with a smaller dt=, or by strategy='auto', which chooses them.",
-                stacklevel=user_level(),
-            )
+        of_fit = _change(fit.problem, fit.trained)
+        if own.problem.substeps == fit.problem.substeps and (of_fit > allowed).any():
+            if (change > noise).any():
+                i = int(np.argmax(change / noise))
+                name, unit = fit.problem.targets[i], fit.system.unit(fit.problem.targets[i])
+                warnings.warn(
+                    f"predict: steps of half the length change '{name}' by up to {change[i]:.3g} {unit}, and by "
+                    f"{of_fit[i]:.3g} in the records of the fit; the noise is {noise[i]:.2g}. The fit's steps are too "
+                    "long: fit with a smaller dt=, or by strategy='auto', which chooses them.",
+                    stacklevel=user_level(),
+                )
             break
         own = replace(own, problem=own.problem.finer())
         values = _found(own, _certainty(own, noise))
