@@ -163,7 +163,11 @@ class InitializationSolver(LeavesCaches):
         def rates(problem: InitializationProblem, at: Values) -> tuple[Array, Array]:
             free = np.asarray(problem.moved, dtype=np.int64)
             nominal = self.conditions.nominal[free]
-            residual = lambda z: self._residual(problem, z * nominal, at)  # noqa: E731
+
+            def residual(z: Array) -> Array:
+                every = self._residual(problem, z * nominal, at)
+                return every[len(every) - len(free) :]  # constraints come before rates
+
             z = at.x[free] / nominal
             return residual(z), jax.jacfwd(residual)(z)
 

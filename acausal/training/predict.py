@@ -170,8 +170,8 @@ def _in_fine_steps(
         allowed = np.maximum(IN_NOISE * noise, TINY * np.asarray(own.problem.records.sigma))
         if (change <= allowed).all():
             break
-        of_fit = _change(fit.problem, fit.trained)
-        if own.problem.substeps == fit.problem.substeps and (of_fit > allowed).any():
+        is_first = own.problem.substeps == fit.problem.substeps
+        if is_first and ((of_fit := _change(fit.problem, fit.trained)) > allowed).any():
             if (change > noise).any():
                 i = int(np.argmax(change / noise))
                 name, unit = fit.problem.targets[i], fit.system.unit(fit.problem.targets[i])

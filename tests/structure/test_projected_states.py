@@ -65,9 +65,10 @@ def test_its_starts_move_as_little_as_they_must(pendulum: ac.System) -> None:
     assert abs(float(free.initial_state()[1])) == pytest.approx(1.0)
 
 
-def test_its_linearization_has_two_states() -> None:
-    hanging = ac.compile(Pendulum(x=ac.Start(0.0), y=ac.Start(-1.0)))
-    found = ac.linearize(hanging)
+def test_it_comes_to_rest_and_its_linearization_has_two_states() -> None:
+    hanging = ac.compile(Pendulum(x=ac.Start(0.9), y=ac.Start(0.2)))
+    np.testing.assert_allclose(hanging.initial_state(steady=True), [0, -1, 0, 0], atol=1e-9)
+    found = ac.linearize(hanging, x="steady")
     assert found.states == ("x", "v")
     np.testing.assert_allclose(found.A, [[0, 1], [-G, 0]], atol=1e-9)
 
