@@ -32,8 +32,8 @@ from acausal.codegen import (
 from acausal.flattening import Binding, FlatModel, LeavesCaches
 from acausal.structure import ReducedModel
 
-OPEN, DEPENDENT = 1e3, 1e6
-"""How far states of which nobody has given a start move where others move by 1; those that depend on the rest."""
+OPEN, DEPENDENT = 1e4, 1e8
+"""How far states without a start move where others move by 1; those that depend on the rest."""
 
 
 @dataclass(frozen=True)
@@ -74,17 +74,17 @@ class Conditions(LeavesCaches):
     def mobility(self) -> np.ndarray:
         """How far each state may move for the conditions, in nominal values, where another one moves by 1.
 
-        Of states that are tied to each other, those whose start nobody has given move first; of these, dependent ones.
+        Of states that are tied to each other, those without a start move first; of these, dependent ones.
         """
-        n, tied = len(self.start_of), [p.states for p in self.reduced.projections]
-        dependent = np.isin(
-            self.reduced.states, [s for p in self.reduced.projections for s in p.dependent]
-        )
-        given = np.asarray([self.reduced.model.start_given[v] for v, _ in self.start_of], bool)
+        model, states, every = self.reduced.model, self.reduced.states, self.reduced.projections
+        dependent = np.isin(states, [s for p in every for s in p.dependent])
+        given = [
+            v < model.n_variables
+            and bool(model.start_given[v] or model.start[v] != 0 or v in self._bindings)
+            for v, _ in self.start_of
+        ]
         far = np.where(given, 1.0, np.where(dependent, DEPENDENT, OPEN))
-        return np.where(
-            np.isin(self.reduced.states, [s for own in tied for s in own]), far, np.ones(n)
-        )
+        return np.where(np.isin(states, [s for p in every for s in p.states]), far, 1.0)
 
     @cached_property
     def own(self) -> tuple[FixedStart, ...]:

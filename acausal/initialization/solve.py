@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import jax
@@ -92,7 +92,8 @@ class InitializationSolver(LeavesCaches):
         The solution is found without derivatives; one Newton step from there, which moves nothing, carries them.
         """
         free = np.asarray(problem.moved, dtype=np.int64)
-        nominal = (self.conditions.nominal * self.conditions.mobility)[free]
+        mobility = self.conditions.mobility[free]
+        nominal = self.conditions.nominal[free] * mobility
         x = start.x
 
         def residual(z: Array, at: Values) -> Array:
@@ -109,7 +110,7 @@ class InitializationSolver(LeavesCaches):
             return InitialStates(x, rest, jnp.zeros((len(rest), 0)))
         z0 = x[free] / nominal
         guess = jax.lax.stop_gradient(z0)
-        least = _least_squares if problem.least_squares else _least_change
+        least = _least_squares if problem.least_squares else partial(_least_change, 1 / mobility)
         z = jax.lax.stop_gradient(least(lambda z: residual(z, frozen), guess))
         vanishing = stationary if problem.least_squares else residual
         jacobian = jax.jacfwd(lambda z: vanishing(z, frozen))(z)
@@ -174,9 +175,11 @@ class InitializationSolver(LeavesCaches):
         return rates
 
 
-def _least_change(residual: Callable[[Array], Array], guess: Array) -> Array:
+def _least_change(scale: np.ndarray, residual: Callable[[Array], Array], guess: Array) -> Array:
     """Newton's method with the smallest steps: a root near the guess even if there are many."""
-    return root(Dense(lambda x: (x, residual(x)), _smallest), guess, max_steps=MAX_STEPS)[0]
+    return root(Dense(lambda x: (x, residual(x)), _smallest), guess, jnp.asarray(scale), MAX_STEPS)[
+        0
+    ]
 
 
 def _smallest(jacobian: Float[Array, "k m"], r: Float[Array, " k"]) -> Float[Array, " m"]:

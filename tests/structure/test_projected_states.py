@@ -93,6 +93,63 @@ def test_exported_steps_turn_over_as_simulated_ones_do(pendulum: ac.System, tmp_
     assert np.sum(model.outputs() ** 2) == pytest.approx(1.0, abs=1e-12)
 
 
+class Reeled(ac.Component):
+    """A pendulum whose length changes in time."""
+
+    x = ac.Variable(start=0.6)
+    y = ac.Variable(start=-0.8)
+    v = ac.Variable(start=6.0)
+    w = ac.Variable()
+    f = ac.Variable()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield Eq(der(self.x), self.v)
+        yield Eq(der(self.y), self.w)
+        yield Eq(der(self.v), -self.f * self.x)
+        yield Eq(der(self.w), -self.f * self.y - G)
+        yield Eq(self.x**2 + self.y**2, (1 + 0.2 * ac.sin(3 * ac.time)) ** 2)
+
+
+@pytest.mark.slow
+def test_a_constraint_may_move() -> None:
+    system = ac.compile(Reeled())
+    start = np.asarray(system.initial_state())
+    np.testing.assert_allclose(start, [0.6, -0.8, 6.0, 3.75], atol=1e-6)  # w alone has no start
+    found = ac.simulate(system, 3.0, rtol=1e-8, atol=1e-10)
+
+    def rates(t: float, z: np.ndarray) -> list[float]:
+        length, growth = 1 + 0.2 * np.sin(3 * t), 0.6 * np.cos(3 * t)
+        return [z[1], -(G * np.sin(z[0]) + 2 * growth * z[1]) / length]
+
+    begin, t = [np.arcsin(0.6), 0.8 * 6.0 + 0.6 * 3.75], np.asarray(found.t)
+    phi = solve_ivp(rates, (0, 3), begin, "DOP853", t, rtol=1e-12, atol=1e-12).y[0]
+    wanted = (1 + 0.2 * np.sin(3 * t)) * np.sin(phi)
+    np.testing.assert_allclose(found["x"], wanted, atol=2e-5)
+
+
+class Sleigh(ac.Component):
+    """A sleigh on a blade, which does not slip sideways: it turns at a constant rate, with a constant speed."""
+
+    vx = ac.Variable(start=1.0)
+    vy = ac.Variable()
+    phi = ac.Variable(start=0.3, fixed=True)
+    f = ac.Variable()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield Eq(der(self.phi), 2)
+        yield Eq(der(self.vx), -self.f * ac.sin(self.phi))
+        yield Eq(der(self.vy), self.f * ac.cos(self.phi))
+        yield Eq(self.vx * ac.sin(self.phi), self.vy * ac.cos(self.phi))
+
+
+def test_speeds_are_projected_alone_where_positions_are_free() -> None:
+    system = ac.compile(Sleigh())
+    assert system.states == ("vx", "vy", "phi")
+    found = ac.simulate(system, 5.0, rtol=1e-8, atol=1e-10)
+    speed = found["vx"] * np.cos(found["phi"]) + found["vy"] * np.sin(found["phi"])
+    np.testing.assert_allclose(speed, 1 / np.cos(0.3), atol=1e-7)
+
+
 def preferring() -> ac.Component:
     model = turning()
     model.modify(x=ac.Start(0.6, state="prefer"), v=ac.Start(0.0, state="prefer"))
