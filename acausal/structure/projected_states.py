@@ -23,13 +23,12 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from acausal.flattening import Template, interned
 from acausal.structure.blocks import LARGE
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import Point, is_constant, partials
+from acausal.structure.rank import connected_parts
 
 ALWAYS = 2
 """The rank of what is torn in any case (`Equations.tear_ranks`)."""
@@ -81,7 +80,7 @@ def find_mechanisms(
     jumping = _jumping(system)
     rank = {v: i for i, v in enumerate(preferences)}
     found: list[Mechanism] = []
-    for part in _connected(rows):
+    for part in _connected(rows, len(system.structure.derivative)):
         coordinates = sorted({v for e in part for v in rows[e]}, key=rank.__getitem__)
         free = len(coordinates) - len(part)
         ranks = [preferences[v] for v in coordinates]  # in rising order
@@ -153,22 +152,11 @@ def _subtract(row: Row, factor: float | None, pivot: Row, divisor: float | None)
             row.pop(u, None)
 
 
-def _connected(rows: Mapping[int, Row]) -> list[list[int]]:
+def _connected(rows: Mapping[int, Row], width: int) -> list[list[int]]:
     """Rows with common variables, together."""
-    if not rows:
-        return []
-    places = {
-        v: len(rows) + i for i, v in enumerate(dict.fromkeys(v for r in rows.values() for v in r))
-    }
-    pairs = [(i, places[v]) for i, row in enumerate(rows.values()) for v in row]
-    size = len(rows) + len(places)
-    edges = csr_array(
-        (np.ones(len(pairs)), np.asarray(pairs, dtype=int).reshape(-1, 2).T), (size, size)
-    )
-    label = connected_components(edges, directed=False)[1]
     parts: dict[int, list[int]] = {}
-    for e, part in zip(rows, label.tolist(), strict=False):
-        parts.setdefault(part, []).append(e)
+    for e, part in zip(rows, connected_parts([*map(list, rows.values())], width), strict=False):
+        parts.setdefault(int(part), []).append(e)
     return [*parts.values()]
 
 

@@ -38,7 +38,7 @@ def choose_columns(matrix: Any, candidates: Sequence[int]) -> tuple[list[int], l
     suspects = _singular_rows(incidence, columns, chosen, width)
     if not suspects:
         return chosen, []
-    part = _parts(incidence, width)
+    part = connected_parts(incidence, width)
     wrong = {int(part[row]) for row in suspects}
     inside = [c for c in candidates if columns[c] and int(part[n + c]) in wrong]
     kept, pivots = independent((c, columns[c]) for c in inside)
@@ -213,7 +213,7 @@ def _singular_rows(
     return found
 
 
-def _parts(incidence: list[list[int]], width: int) -> np.ndarray:
+def connected_parts(incidence: list[list[int]], width: int) -> np.ndarray:
     """For every row, then every column, the connected part that it lies in."""
     n = len(incidence)
     rows = np.repeat(np.arange(n), [len(r) for r in incidence])
