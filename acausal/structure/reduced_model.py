@@ -126,9 +126,10 @@ class ReducedModel(LeavesCaches):
         return member[self.meant], member_sign[self.meant]
 
     def start_values(self, nodes: Integers) -> np.ndarray:
-        """Start values of nodes that have names, as far as they are numbers."""
+        """Start values of nodes, as far as they are numbers; zero for those without names."""
         member, sign = (a[nodes] for a in self.start_members)
-        return sign * self.model.start[member]
+        named = member < self.model.n_variables
+        return sign * np.where(named, self.model.start[np.where(named, member, 0)], 0.0)
 
     def start_guess(self, nodes: Integers) -> np.ndarray:
         """Start values of nodes as far as they are numbers; a little off zero where none was given.

@@ -32,8 +32,9 @@ from acausal.training.trained_model import TrainedModel, out_of_range
 from acausal.training.uncertainty.bumps import Bumped, bumped_law, with_changes
 from acausal.training.uncertainty.confidence import Band, Confidence
 
-IN_NOISE, TINY, FINEST = 0.3, 1e-4, 64
-"""What half as long steps may change, relative to the noise or at least the signal; most steps between two samples."""
+IN_NOISE, TINY, MUCH, FINEST = 0.3, 1e-4, 5.0, 64
+"""What half as long steps may change, relative to the noise or at least the signal; a change to warn of where those of the
+fit were as long; most steps between two samples."""
 
 UPDATES = 50
 """At most so many steps find what a record has for itself."""
@@ -172,7 +173,7 @@ def _in_fine_steps(
             break
         is_first = own.problem.substeps == fit.problem.substeps
         if is_first and ((of_fit := _change(fit.problem, fit.trained)) > allowed).any():
-            if (change > noise).any():
+            if (change > MUCH * noise).any():
                 i = int(np.argmax(change / noise))
                 name, unit = fit.problem.targets[i], fit.system.unit(fit.problem.targets[i])
                 warnings.warn(

@@ -48,6 +48,24 @@ def test_a_pendulum_in_cartesian_coordinates_turns_over(pendulum: ac.System) -> 
     np.testing.assert_allclose(found.x[:, 0], found["x"], atol=1e-6)  # which the state follows
 
 
+def test_speeds_need_no_names() -> None:
+    def stated(s: Equations) -> Iterator[ac.Eq]:
+        yield Eq(der(der(s.x)), -s.f * s.x)
+        yield Eq(der(der(s.y)), -s.f * s.y - G)
+        yield Eq(s.x**2 + s.y**2, 1)
+
+    model = Equations("x y f", stated)
+    system = ac.compile(model)
+    assert system.states == ("x", "y", "der(x)", "der(y)")
+    start = np.asarray(system.initial_state(x0={"x": 0.6, "der(x)": 8.0}))
+    np.testing.assert_allclose(np.abs(start), [0.6, 0.8, 8.0, 6.0], atol=1e-6)
+    assert np.isfinite(rates_of(system, start)).all()
+
+
+def rates_of(system: ac.System, x: np.ndarray) -> np.ndarray:
+    return np.asarray(system.vector_field(0.0, x, None, system.parameters()))
+
+
 def test_its_starts_move_as_little_as_they_must(pendulum: ac.System) -> None:
     found = pendulum.initialize()
     assert found["w"] == pytest.approx(6.0)  # nobody has given it
