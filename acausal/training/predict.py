@@ -33,8 +33,8 @@ from acausal.training.uncertainty.bumps import Bumped, bumped_law, with_changes
 from acausal.training.uncertainty.confidence import Band, Confidence
 
 IN_NOISE, TINY, MUCH, FINEST = 0.3, 1e-4, 5.0, 64
-"""What half as long steps may change, relative to the noise or at least the signal; a change to warn of where those of the
-fit were as long; most steps between two samples."""
+"""What half as long steps may change, relative to the noise or at least the signal; a change to warn of where the steps
+of the fit were as long; most steps between two samples."""
 
 UPDATES = 50
 """At most so many steps find what a record has for itself."""
