@@ -53,9 +53,6 @@ class IdealOpAmp3Pin(_ThreePins):
 _TRIED = 1e-3
 """So far within a limit, relative to the range, an amplifier is tried that is to leave it."""
 
-_ROUNDING = 1e-9
-"""So far beyond a limit, relative to the range, it goes before it is held there."""
-
 
 class _Limited(_ThreePins):
     """An output between two limits, with a memory of the limit that it is at.
@@ -85,14 +82,9 @@ class _Limited(_ThreePins):
         upper = ac.where(m > 1.5, high - step, ac.where(m > 0.5, high, between))
         return ac.where(m < -1.5, low + step, ac.where(m < -0.5, low, upper))
 
-    def _changes(self, level: Any, low: Any, high: Any, pull: Any) -> Iterator[ac.Eq]:
-        """The mode, from the level that the input asks for, the limits of it, and by how much it is beyond.
-
-        Within the limits it may go beyond them by rounding, as where it has just left one.
-        """
+    def _changes(self, above: Any, below: Any, pull: Any) -> Iterator[ac.Eq]:
+        """The mode, from whether the input asks for more or less than the limits, and by how much."""
         m, rise = ac.pre(self.mode), pull - ac.pre(self.pull)
-        room = _ROUNDING * (high - low) * ac.where(m > 0.5, 0, ac.where(m < -0.5, 0, 1))
-        above, below = level > high + room, level < low - room
         yield ac.Eq(self.pull, pull)
         yield ac.Eq(self.push, ac.where(m > 1.5, rise, ac.where(m < -1.5, -rise, 1)))
         away = self.push > 0
@@ -130,7 +122,7 @@ class IdealOpAmpLimited(_Limited):
         yield ac.Eq(self.vin, excess)
         between = (high + low) / 2 + (high - low) / 2 * self.s
         yield ac.Eq(self.out.v, self._output(low, high, between))
-        yield from self._changes(self.s, -1, 1, self.vin)
+        yield from self._changes(self.s > 1, self.s < -1, self.vin)
 
 
 class IdealizedOpAmpLimited(_Limited):
@@ -183,4 +175,4 @@ class IdealizedOpAmpLimited(_Limited):
             yield ac.Eq(self.s_n.i, -self.i_s)
         wanted = self.V0 * self.v_in
         yield ac.Eq(self.v_out, self._output(self.vns, self.vps, wanted))
-        yield from self._changes(wanted, self.vns, self.vps, wanted - self.v_out)
+        yield from self._changes(wanted > self.vps, wanted < self.vns, wanted - self.v_out)
