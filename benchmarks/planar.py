@@ -27,12 +27,14 @@ STEPS, ROUNDS = 1000, 9
 class FourBar(ac.Component):
     """Crank, coupler and rocker on two fixed frames, with a body at each end; the crank turns round."""
 
-    def __init__(self, crank: str = "always") -> None:
+    def __init__(self, *, driven: bool = True) -> None:
         super().__init__()
         self.left, self.right = planar.Fixed(), planar.Fixed(r=(1.0, 0.0))
         angles = (0.6, -0.4, 1.0, -1.2)
         self.joint = [planar.Revolute(phi=ac.Start(phi)) for phi in angles]
-        self.joint[0].modify(stateSelect=crank, w=ac.Start(14.0))
+        self.joint[0].modify(w=ac.Start(14.0))
+        if driven:
+            self.joint[0].modify(stateSelect="always")
         self.rod = [planar.FixedTranslation(r=(length, 0.0)) for length in (0.4, 1.0, 0.8)]
         self.body = [planar.Body(m=1.0, I=0.02) for _ in self.rod]
         end = self.left.frame
@@ -128,7 +130,7 @@ def main() -> None:
     parser.add_argument("n", nargs="*", type=int, default=[1, 2, 4, 8, 16], help="bodies of chains")
     models: dict[str, Callable[[], ac.Component]] = {
         "four_bar": FourBar,
-        "four_bar_of_all": lambda: FourBar("prefer"),
+        "four_bar_of_all": lambda: FourBar(driven=False),
         "two_track": TwoTrack,
     }
     models |= {f"chain_{n}": lambda n=n: Chain(n) for n in parser.parse_args().n}
