@@ -307,9 +307,9 @@ def _lay_out(
     seen = np.full((len(ts), len(known)), np.nan)
     seen[np.searchsorted(ts, data.time)] = data.columns(known, "a sensor")
     given = x0 if isinstance(x0, str) else dict(x0 or {})
-    shown = {} if isinstance(x0, str) else dict(zip(known, seen[0], strict=True))
+    first = {} if isinstance(x0, str) else dict(zip(known, seen[0], strict=True))
     begun = {
-        n: v for n, v in shown.items() if n in system.states and np.isfinite(v) and n not in given
+        n: v for n, v in first.items() if n in system.states and np.isfinite(v) and n not in given
     }
     places = [system.states.index(n) for n in begun]
     close = not system.reduced.exact.all()  # states that are measured may be off their constraints

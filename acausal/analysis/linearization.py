@@ -419,21 +419,21 @@ def linearize(
     at = point_of(system, x, inputs, params, t)
 
     at = at._replace(t=array(at.t))  # one program for all times
-    (A, B), (C, D) = _matrices(system, outputs, at)
-    chosen, along = _independent(system, at)
-    a, b, c, x = (A @ along)[chosen], B[chosen], C @ along, at.x[chosen]
+    (a, b), (c, d) = _matrices(system, outputs, at)
+    n = system.reduced.n_independent
+    if system.reduced.gaps:
+        chosen, along = _independent(system, at)
+        a, c = a @ along, c @ along
+    else:  # the guesses of loops follow from the other states
+        chosen, a, c = np.arange(n), a[:, :n], c[:, :n]
     names = tuple(system.states[i] for i in chosen.tolist())
-    return Linearization(a, b, c, D, names, system.inputs, outputs, x, at.u)
+    x = at.x[chosen]
+    return Linearization(a[chosen], b[chosen], c, d, names, system.inputs, outputs, x, at.u)
 
 
 def _independent(system: System, at: Values) -> tuple[np.ndarray, Array]:
-    """As many states as there are degrees of freedom, and how all states move with these.
-
-    The guesses of loops follow from the other states; those that are projected follow from some of them.
-    """
+    """As many projected and other states as there are degrees of freedom, and how all states move with these."""
     n = system.reduced.n_independent
-    if not system.reduced.gaps:
-        return np.arange(n), jnp.eye(len(at.x), n)
     moved = np.asarray(jax.jacfwd(lambda x: system.closed(at._replace(x=x)))(at.x))
     _, order = cast(Any, qr(moved[:n].T, pivoting=True, mode="r"))
     chosen = np.sort(order[: n - len(system.reduced.gaps)])

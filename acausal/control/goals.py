@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 Weights = Mapping[str, float]
-Limits = Mapping[str, tuple[float, float]]
+Limits = Mapping[str, tuple[float | None, float | None]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +51,9 @@ class Goals:
         return tuple(dict.fromkeys([*self.track, *self.bounded]))
 
     def ends(self, name: str) -> tuple[float, float]:
-        """The limits of an input or a variable."""
-        low, high = self.limits.get(name, (-np.inf, np.inf))
-        return float(low), float(high)
+        """The limits of an input or a variable, infinite where there is none."""
+        low, high = self.limits.get(name, (None, None))
+        return -np.inf if low is None else float(low), np.inf if high is None else float(high)
 
     def size(self, name: str) -> float:
         """What counts as large: the distance of the limits, or from zero of the only one, else 1."""
@@ -90,12 +90,14 @@ class Goals:
             for name in names:
                 of = f"control.mpc: {what}:"
                 known_name(name, known, of, then=" is no input that is decided;")
+        pair: Any
         for name, pair in self.limits.items():
             if name in system.inputs and name not in self.effort:
                 raise DataError(
                     f"control.mpc: limits: '{name}' is given, not decided; leave it out."
                 )
-            if np.shape(pair) != (2,) or not (is_real(pair) and pair[0] < pair[1]):
+            is_pair = np.shape(pair) == (2,) and all(e is None or is_real(e) for e in pair)
+            if not is_pair or not np.less(*self.ends(name)):
                 raise DataError(
                     f"control.mpc: limits of '{name}' are (lowest, highest), the one below the other, or None for one "
                     f"that there is not; not {shown(pair)}."

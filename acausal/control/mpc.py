@@ -122,10 +122,7 @@ def mpc(
         by_name(track, "control.mpc: track", "weights by name"),
         by_name(effort, "control.mpc: effort", "weights by name"),
         by_name(change, "control.mpc: change", "weights by name"),
-        {
-            name: _open(pair)
-            for name, pair in by_name(limits, "control.mpc: limits", "(low, high) by name").items()
-        },
+        by_name(limits, "control.mpc: limits", "(low, high) by name"),
         terminal,
     )
     goals.check(system)
@@ -144,22 +141,13 @@ def mpc(
     return MPC(system, params, float(dt), steps, goals, given, solver)
 
 
-def _open(pair: Any) -> Any:
-    """A pair of limits, infinite where there is none."""
-    if not isinstance(pair, tuple | list) or len(pair) != 2:
-        return pair
-    low, high = pair
-    return -np.inf if low is None else low, np.inf if high is None else high
-
-
 def _parts(system: System, params: Mapping[str, Any] | None, dt: float) -> int:
     """How many explicit steps follow the fastest mode of a model at its start within a sample time.
 
     Raises:
         DataError: if these are too many.
     """
-    packed = system.pack({**system.parameters(), **by_name(params, "params", "values by name")})
-    at = system.values(0.0, system.initial_state(packed), system.input_values(None), packed)
+    at = system.start_values(system.pack(params), None, system.input_values(None), 0.0)
     parts = parts_of_steps(system, at, dt)
     if parts is None:
         raise DataError(

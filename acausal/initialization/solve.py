@@ -177,9 +177,9 @@ class InitializationSolver(LeavesCaches):
 
 def _least_change(scale: np.ndarray, residual: Callable[[Array], Array], guess: Array) -> Array:
     """Newton's method with the smallest steps: a root near the guess even if there are many."""
-    return root(Dense(lambda x: (x, residual(x)), _smallest), guess, jnp.asarray(scale), MAX_STEPS)[
-        0
-    ]
+    problem = Dense(lambda x: (x, residual(x)), _smallest)
+    found, *_ = root(problem, guess, jnp.asarray(scale), MAX_STEPS)
+    return found
 
 
 def _smallest(jacobian: Float[Array, "k m"], r: Float[Array, " k"]) -> Float[Array, " m"]:

@@ -268,12 +268,14 @@ class Equations:
         pattern = (*codes, *[0] * len(template.parameters))
         origin = self.origin[equation].differentiated
         special, (columns, kept, used) = specialised(template, pattern, origin)
-        self.origin.append(origin)
-        self.template.append(special)
-        self.variables.append([nodes[c] for c in columns])
-        self.parameters.append([self.parameters[equation][c] for c in kept])
-        self.modules.append([self.modules[equation][c] for c in used])
-        self.component.append(self.component[equation])
+        self._state(
+            equation,
+            origin,
+            special,
+            [nodes[c] for c in columns],
+            [self.parameters[equation][c] for c in kept],
+            [self.modules[equation][c] for c in used],
+        )
         return [v for v in _read(special, self.variables[-1]) if v not in self.known]
 
     def _warn_of_impulse(self, equation: int) -> None:
@@ -318,14 +320,25 @@ class Equations:
         modules: Sequence[int] = (),
     ) -> None:
         """Add an equation that is stated where another one is."""
-        self.template.append(template)
-        self.variables.append(variables)
-        self.parameters.append([*parameters])
-        self.modules.append([*modules])
-        self.component.append(self.component[like])
-        self.origin.append(self.origin[like])
+        self._state(like, self.origin[like], template, variables, [*parameters], [*modules])
         self.structure.successor.append(-1)
         self.structure.incidence.append([v for v in variables if v not in self.known])
+
+    def _state(
+        self,
+        like: int,
+        origin: Origin,
+        template: Statement,
+        variables: list[int],
+        parameters: list[int],
+        modules: list[int],
+    ) -> None:
+        self.component.append(self.component[like])
+        self.origin.append(origin)
+        self.template.append(template)
+        self.variables.append(variables)
+        self.parameters.append(parameters)
+        self.modules.append(modules)
 
     def _derivative(self, node: int) -> tuple[int, int]:
         """Node and sign of a node's derivative."""

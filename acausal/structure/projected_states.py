@@ -76,6 +76,8 @@ def find_mechanisms(
         preferences: of the variables that may be states, the least preferred first.
     """
     rows = {e: _partials(system, e, preferences) for e in constraints}
+    if all(None not in row.values() for row in rows.values()):
+        return []
     pivots = _eliminate(rows, preferences)
     jumping = _jumping(system)
     rank = {v: i for i, v in enumerate(preferences)}
@@ -186,7 +188,6 @@ class Projection:
     """What the projection of a mechanism adds: a state for each coordinate, and multipliers and gaps of constraints.
 
     Attributes:
-        near: by node, the coordinate or follower that it is close to.
         gaps: how far the states are off the constraints: they are zero at the start.
         constraints: where these are stated.
         dependent: states that the constraints determine at the start, if the others are known.
@@ -194,7 +195,6 @@ class Projection:
     """
 
     states: list[int]
-    near: dict[int, int]
     multipliers: list[int]
     gaps: list[int]
     constraints: list[str]
@@ -245,7 +245,6 @@ def _project(
     residuals = [c * system.template[e].residual for e, c in zip(constraints, scales, strict=True)]
     return Projection(
         states,
-        {near[v]: v for v in (*coordinates, *mechanism.followers)},
         multipliers,
         [add.value(e, r) for e, r in zip(constraints, residuals, strict=True)],
         [system.describe(e) for e in constraints],
@@ -279,11 +278,10 @@ def _slopes(add: _Writer, mechanism: Mechanism, scales: Sequence[float]) -> dict
 
 def _is_linear(system: Equations, mechanism: Mechanism) -> bool:
     """Whether no derivative of the constraints depends on what they determine."""
+    variables = mechanism.variables
     for e in mechanism.equations:
         template, row = system.template[e], system.variables[e]
-        inside = {
-            s for s, v in zip(template.variables, row, strict=True) if v in mechanism.variables
-        }
+        inside = {s for s, v in zip(template.variables, row, strict=True) if v in variables}
         if any(template.partial(template.variables.index(s)).free_symbols & inside for s in inside):
             return False
     return True

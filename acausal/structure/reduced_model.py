@@ -5,7 +5,7 @@ The result lists the states, and in which order and from which equations all oth
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -24,7 +24,7 @@ from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.projected_states import Projection
 from acausal.structure.singularity import explain_singularity
 from acausal.structure.sparse_loops import SparseLoop
-from acausal.structure.state_selection import StateSelection, select_states
+from acausal.structure.state_selection import select_states
 
 OFF_ZERO = 1e-3
 AUXILIARY = "auxiliary"
@@ -49,7 +49,8 @@ class ReducedModel(LeavesCaches):
         derivative, derivative_sign: as in `AliasFree`, extended.
         steps: in solving order.
         guessed: unknowns of nonlinear loops; the last states are the guesses from which Newton's method finds them.
-        projections: of the states that are only close to the variables that they are called as.
+        close: by node without a name, the variable that it is called as and close to.
+        projections: of the states that are such nodes.
     """
 
     model: FlatModel
@@ -67,6 +68,7 @@ class ReducedModel(LeavesCaches):
     derivative_sign: Integers
     steps: tuple[SolvingStep, ...]
     guessed: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    close: Mapping[int, int] = field(default_factory=dict)
     projections: tuple[Projection, ...] = ()
 
     @property
@@ -83,8 +85,7 @@ class ReducedModel(LeavesCaches):
     def meant(self) -> Integers:
         """For every node itself; for a guess, or a state that is projected, the variable that it is close to."""
         nodes = np.arange(len(self.derivative))
-        for projection in self.projections:
-            nodes[list(projection.near)] = list(projection.near.values())
+        nodes[list(self.close)] = list(self.close.values())
         nodes[self.guesses] = self.guessed
         return nodes
 
@@ -191,14 +192,13 @@ def reduce(model: FlatModel) -> ReducedModel:
         raise StructureError(problem)
     system.reduce_index()
     system.insert_signals()
-    return _order(system, select_states(system))
+    return _order(system, *select_states(system))
 
 
 # -- solving order ------------------------------------------------------------------------------------
 
 
-def _order(system: Equations, selection: StateSelection) -> ReducedModel:
-    states = selection.states
+def _order(system: Equations, states: list[int], projections: list[Projection]) -> ReducedModel:
     solved = set(states)
     check_jumps(system.model, system.aliases, solved)
     unknowns = [v for v in system.unknowns() if v not in solved]
@@ -242,7 +242,8 @@ def _order(system: Equations, selection: StateSelection) -> ReducedModel:
         derivative=np.asarray(system.structure.derivative, dtype=np.int64),
         derivative_sign=np.asarray(system.sign, dtype=np.int64),
         steps=steps,
-        projections=tuple(selection.projections),
+        close=system.meant,
+        projections=tuple(projections),
     )
 
 

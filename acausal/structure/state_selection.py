@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -18,18 +17,11 @@ from acausal.structure.rank import choose_columns
 DEFAULT = float(STATE_SELECT.index("default"))
 
 
-@dataclass(frozen=True)
-class StateSelection:
-    """The states, of which some are `projected` on the constraints."""
-
-    states: list[int]
-    projections: list[Projection]
-
-
-def select_states(system: Equations) -> StateSelection:
+def select_states(system: Equations) -> tuple[list[int], list[Projection]]:
     """Choose dummy derivatives (Mattsson & Soderlind 1993) and keep the most preferred variables as states.
 
-    Where equally preferred variables are tied by constraints that none of them fulfils everywhere, all are states.
+    Where equally preferred variables are tied by constraints that none of them fulfils everywhere, all are states; what
+    that adds is the second result.
 
     The differentiated constraints determine the dummies if their Jacobian has full rank. This is decided numerically:
     at the model's start values; where these are a singular point, as angles of zero often are, or one that keeps less
@@ -61,7 +53,8 @@ def select_states(system: Equations) -> StateSelection:
             dependent.update(antecedent[v] for v in chosen)
         mechanisms += found
         solved = {stated[e] for m in found for e in m.equations}
-        dummy = [v for v in candidates if any(antecedent[v] in m.variables for m in found)]
+        inside = {v for m in found for v in m.variables}
+        dummy = [v for v in candidates if antecedent[v] in inside]
         dummies.update(dummy)
         left = {v: p for v, p in preferences.items() if v not in dummies}
         rest = [e for e in constraints if e not in solved]
@@ -78,7 +71,7 @@ def select_states(system: Equations) -> StateSelection:
     ]
     projections = project(system, mechanisms[::-1], dependent, points)
     states += [s for p in projections for s in p.states]
-    return StateSelection(sorted(states, key=lambda s: system.meant.get(s, s)), projections)
+    return sorted(states, key=lambda s: system.meant.get(s, s)), projections
 
 
 def _independent(

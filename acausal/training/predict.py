@@ -25,7 +25,7 @@ from acausal.training.objective.initial_state import InitialState, by_record, ch
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.start_prior import StartPrior, start_prior
 from acausal.training.objective.start_sizes import found_starts, with_sizes
-from acausal.training.objective.trainable import Trainable
+from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.prediction import Prediction, Predictions
 from acausal.training.record_fit import RecordFit, of_records
 from acausal.training.trained_model import TrainedModel, out_of_range
@@ -125,15 +125,15 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
     fit, conformal = shared
     system, targets = fit.system, fit.problem.targets
     confidence = fit.confidence()
-    least = np.array([confidence.noise[n] * np.sqrt(confidence.alike[n]) for n in targets])
-    own, values = _in_fine_steps(fit, _own(fit, some), np.maximum(least, 1e-300))
+    alike = np.array([confidence.noise[n] * np.sqrt(confidence.alike[n]) for n in targets])
+    least = np.maximum(alike, 1e-300)
+    own, values, simulated = _in_fine_steps(fit, _own(fit, some), least)
     problem, trainable = own.problem, own.moved(values)
-    certainty = _certainty(own, np.maximum(least, 1e-300))
     if conformal is None:
-        sigma = _deviations(own, values, certainty, fit, confidence)
+        sigma = _deviations(own, values, _certainty(own, least), fit, confidence)
     else:
         sigma = np.tile([conformal.width[n] / 2 for n in targets], (len(problem.records), 1))
-    made = of_records(problem, trainable, problem.simulate(trainable))
+    made = of_records(problem, trainable, simulated)
     units = {n: system.unit(n) for n in targets}
 
     def one(k: int, record: RecordFit) -> Prediction:
@@ -157,40 +157,54 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
 
 def _in_fine_steps(
     fit: TrainedModel, own: Own, noise: Float[np.ndarray, " n_targets"]
-) -> tuple[Own, Float[np.ndarray, "R m"]]:
-    """What records have for themselves, as they are found in steps whose errors stay below a part of the noise.
+) -> tuple[Own, Float[np.ndarray, "R m"], Simulated]:
+    """What records have for themselves, and their simulations, in steps whose errors stay below a part of the noise.
 
     The steps of a training were right for its records; others may move faster. Where they were not even that, a
     warning says so.
     """
     values = _found(own, _certainty(own, noise))
+    simulated = own.problem.simulate(own.moved(values))
     if isinstance(own.problem.solver, Adaptive) or own.problem.system.events is not None:
-        return own, values
+        return own, values, simulated
     while own.problem.substeps < FINEST:
-        change = _change(own.problem, own.moved(values))
+        finer = own.problem.finer()
+        change = _change(simulated, finer.simulate(own.moved(values)))
         allowed = np.maximum(IN_NOISE * noise, TINY * np.asarray(own.problem.records.sigma))
         if (change <= allowed).all():
             break
-        is_first = own.problem.substeps == fit.problem.substeps
-        if is_first and ((of_fit := _change(fit.problem, fit.trained)) > allowed).any():
-            if (change > MUCH * noise).any():
-                i = int(np.argmax(change / noise))
-                name, unit = fit.problem.targets[i], fit.system.unit(fit.problem.targets[i])
-                warnings.warn(
-                    f"predict: steps of half the length change '{name}' by up to {change[i]:.3g} {unit}, and by "
-                    f"{of_fit[i]:.3g} in the records of the fit; the noise is {noise[i]:.2g}. The fit's steps are too "
-                    "long: fit with a smaller dt=, or by strategy='auto', which chooses them.",
-                    stacklevel=user_level(),
-                )
-            break
-        own = replace(own, problem=own.problem.finer())
+        if own.problem.substeps == fit.problem.substeps:
+            trained = fit.problem.simulate(fit.trained)
+            of_fit = _change(trained, fit.problem.finer().simulate(fit.trained))
+            if (of_fit > allowed).any():
+                if (change > MUCH * noise).any():
+                    _warn_of_steps(fit, change, of_fit, noise)
+                break
+        own = replace(own, problem=finer)
         values = _found(own, _certainty(own, noise))
-    return own, values
+        simulated = finer.simulate(own.moved(values))
+    return own, values, simulated
 
 
-def _change(problem: Problem, trainable: Trainable) -> Float[np.ndarray, " n_targets"]:
-    """How much steps of half the length change each target, at most; infinite where they end what diverges."""
-    coarse, fine = (np.asarray(p.simulate(trainable).y) for p in (problem, problem.finer()))
+def _warn_of_steps(
+    fit: TrainedModel,
+    change: Float[np.ndarray, " n_targets"],
+    of_fit: Float[np.ndarray, " n_targets"],
+    noise: Float[np.ndarray, " n_targets"],
+) -> None:
+    i = int(np.argmax(change / noise))
+    name = fit.problem.targets[i]
+    warnings.warn(
+        f"predict: steps of half the length change '{name}' by up to {change[i]:.3g} {fit.system.unit(name)}, and by "
+        f"{of_fit[i]:.3g} in the records of the fit; the noise is {noise[i]:.2g}. The fit's steps are too long: fit "
+        "with a smaller dt=, or by strategy='auto', which chooses them.",
+        stacklevel=user_level(),
+    )
+
+
+def _change(simulated: Simulated, finer: Simulated) -> Float[np.ndarray, " n_targets"]:
+    """How much finer steps change each target, at most; infinite where they end what diverges."""
+    coarse, fine = np.asarray(simulated.y), np.asarray(finer.y)
     change = np.where(np.isfinite(coarse), np.abs(coarse - fine), np.inf)
     return np.max(np.where(np.isfinite(fine), change, 0.0), axis=0, initial=0.0)
 

@@ -18,6 +18,7 @@ from acausal.training.build_problem import build_problem
 from acausal.training.options import FitOptions
 from examples.four_bar.model import FourBar as DrivenFourBar
 from tests.support.exported_c import ExportedC
+from tests.support.planar import chained
 
 GRAVITY = 9.81
 
@@ -251,12 +252,7 @@ class Cut(ac.Component):
         self.last = last
         self.rod = [planar.FixedTranslation(r=(length, 0.0)) for length in FourBar.LENGTHS]
         self.body = [planar.Body(m=1.0, I=0.02) for _ in self.rod]
-        end = self.left.frame
-        for joint, rod, body in zip(self.joint, self.rod, self.body, strict=True):
-            self.connect(end, joint.frame_a)
-            self.connect(joint.frame_b, rod.frame_a)
-            self.connect(rod.frame_b, body.frame_a)
-            end = rod.frame_b
+        end = chained(self, self.left.frame, self.joint, self.rod, self.body)
         self.connect(end, self.last.frame_a)
         self.connect(self.last.frame_b, self.right.frame)
 

@@ -14,6 +14,7 @@ import acausal as ac
 from acausal.components import planar
 from tests.support.exported_c import ExportedC, need_compiler
 from tests.support.parts import Equations, Pendulum
+from tests.support.planar import chained
 
 Eq, der = ac.Eq, ac.der
 G = 9.81
@@ -207,13 +208,8 @@ class Linkage(ac.Component):
             joint.modify(phi=ac.Start(phi), **({} if w is None else {"w": ac.Start(w)}))
         self.rod = [planar.FixedTranslation(r=(length, 0.0)) for length in (0.8, 1.0, 0.4)]
         self.body = [planar.Body(m=1.0, I=0.02) for _ in self.rod]
-        end = self.ground.frame
-        for joint, rod, body in zip(self.joint, self.rod, self.body, strict=False):
-            self.connect(end, joint.frame_a)
-            self.connect(joint.frame_b, rod.frame_a)
-            self.connect(rod.frame_b, body.frame_a)
-            end = rod.frame_b
-        last = self.joint[3]
+        *links, last = self.joint
+        end = chained(self, self.ground.frame, links, self.rod, self.body)
         first, second = (last.frame_b, last.frame_a) if reverse else (last.frame_a, last.frame_b)
         self.connect(end, first)
         self.connect(second, self.other.frame)

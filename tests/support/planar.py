@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import sympy as sp
 
@@ -160,3 +161,19 @@ class Linkage(Arm):
         self.end, self.pin = Fixed(x0=base), Pin()
         self.connect(self.outer[-1].frame_b, self.pin.frame_a)
         self.connect(self.pin.frame_b, self.end.frame)
+
+
+def chained(
+    model: ac.Component,
+    end: Any,
+    joints: Sequence[Any],
+    rods: Sequence[Any],
+    bodies: Sequence[Any],
+) -> Any:
+    """Connect joints, each with its rod and a body at that rod's end, from a frame on; the last end."""
+    for joint, rod, body in zip(joints, rods, bodies, strict=True):
+        model.connect(end, joint.frame_a)
+        model.connect(joint.frame_b, rod.frame_a)
+        model.connect(rod.frame_b, body.frame_a)
+        end = rod.frame_b
+    return end
