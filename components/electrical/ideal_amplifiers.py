@@ -54,6 +54,10 @@ _TRIED = 1e-3
 """So far within a limit, relative to the range, an amplifier is tried that is to leave it."""
 
 
+_ROOM = 1e-9
+"""So far beyond a limit, relative to the range, an output comes to it: further than by what rounding does."""
+
+
 class _Limited(_ThreePins):
     """An output between two limits, with a memory of the limit that it is at.
 
@@ -64,9 +68,9 @@ class _Limited(_ThreePins):
     mode = ac.Discrete(
         "_first_mode",
         kind="int",
-        doc="1 at the upper limit, -1 at the lower, 0 between; 2 and -2 while leaving a limit is tried",
+        doc="1 at the upper limit, -1 at the lower limit, 0 between, 2 or -2 while it is tried to leave one",
     )
-    pull = ac.Discrete(doc="how much the input asks for a higher output, before the last event")
+    pull = ac.Discrete(doc="at a limit, how much the input asked for a higher output at the last event")
     push = ac.Variable(
         start=1.0, doc="while leaving is tried: above zero if it leads to the middle"
     )
@@ -85,7 +89,7 @@ class _Limited(_ThreePins):
     def _changes(self, above: Any, below: Any, pull: Any) -> Iterator[ac.Eq]:
         """The mode, from whether the input asks for more or less than the limits, and by how much."""
         m, rise = ac.pre(self.mode), pull - ac.pre(self.pull)
-        yield ac.Eq(self.pull, pull)
+        yield ac.Eq(self.pull, ac.where((m > 0.5) | (m < -0.5), pull, 0))
         yield ac.Eq(self.push, ac.where(m > 1.5, rise, ac.where(m < -1.5, -rise, 1)))
         away = self.push > 0
         upper = ac.where(m > 1.5, ac.where(away, 0, -1), ac.where(above, 1, 2))
@@ -173,6 +177,7 @@ class IdealizedOpAmpLimited(_Limited):
         if self.useSupply:
             yield ac.Eq(self.s_p.i, self.i_s)
             yield ac.Eq(self.s_n.i, -self.i_s)
-        wanted = self.V0 * self.v_in
+        wanted, room = self.V0 * self.v_in, _ROOM * (self.vps - self.vns)
+        above, below = wanted > self.vps + room, wanted < self.vns - room
         yield ac.Eq(self.v_out, self._output(self.vns, self.vps, wanted))
-        yield from self._changes(wanted > self.vps, wanted < self.vns, wanted - self.v_out)
+        yield from self._changes(above, below, wanted - self.v_out)
