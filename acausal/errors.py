@@ -6,6 +6,7 @@ Every message says what is wrong, where (dotted names, at most a dozen), and how
 import operator
 import re
 import sys
+import warnings
 from collections.abc import Callable, Collection, Iterable, Sequence
 from difflib import get_close_matches
 from importlib import import_module
@@ -227,9 +228,9 @@ def need_text(given: Any, argument: str, error: type[AcausalError] = DataError) 
     raise error(f"{argument}={shown(given)} is not a text.")
 
 
-def user_level() -> int:
-    """How far up the first caller outside the library is, for `warnings.warn` in the function that asks."""
-    frame, level = sys._getframe(2), 2
+def warn(text: str) -> None:
+    """Warn the first caller outside the library."""
+    frame, level = sys._getframe(1), 2
     while frame is not None and frame.f_code.co_filename.startswith(LIBRARY):
         frame, level = frame.f_back, level + 1
-    return level
+    warnings.warn(text, stacklevel=level)

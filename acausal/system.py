@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import time
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -41,7 +40,7 @@ from acausal.codegen import (
     rates_and_read,
     read,
 )
-from acausal.errors import DataError, ModelError, known_name, nearest, need_flag, shown, user_level
+from acausal.errors import DataError, ModelError, known_name, nearest, need_flag, shown, warn
 from acausal.events import Edges, Events, before_events, generate_events, start_of
 from acausal.flattening import (
     FlatModel,
@@ -571,7 +570,7 @@ class System(LeavesCaches):
         literal = [one.sentence(name) for name, one in unseen.items() if not one.asked]
         if literal and not self._has_warned:
             vars(self)["_has_warned"] = True
-            warnings.warn(literal[0], stacklevel=user_level())
+            warn(literal[0])
         return self._watched if len(literal) < len(unseen) else self
 
     @cached_property
@@ -775,4 +774,4 @@ def _warn_of_silent(flat: FlatModel) -> None:
     for name, one in flat.silent.items():
         if not one.asked and id(one) not in named:
             named.add(id(one))
-            warnings.warn(one.sentence(name), stacklevel=user_level())
+            warn(one.sentence(name))

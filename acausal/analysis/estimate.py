@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, cast
@@ -49,7 +48,7 @@ from acausal.errors import (
     need_compiled,
     need_whole,
     shown,
-    user_level,
+    warn,
 )
 from acausal.modeling import names_in
 from acausal.simulation import (
@@ -189,10 +188,9 @@ def estimate(
         not traced(found.mean)
         and (lost := np.flatnonzero(~np.isfinite(found.mean).all(axis=1))).size
     ):
-        warnings.warn(
+        warn(
             f"The estimates are not finite from t = {float(path.t[lost[0]]):g} s on: the model diverges in its steps "
-            "there. Give a smaller dt=, solver='kvaerno3' for a stiff model, a nearer x0=, or more noise=.",
-            stacklevel=user_level(),
+            "there. Give a smaller dt=, solver='kvaerno3' for a stiff model, a nearer x0=, or more noise=."
         )
     levels = dict(zip(names, q[: len(names)], strict=True))
     result = Estimation.of(path, found, measured, levels, dict(zip(known, r, strict=True)))

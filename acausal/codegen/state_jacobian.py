@@ -137,11 +137,6 @@ class StateJacobian(LeavesCaches):
         return cls(n, ColoredPattern.of(size, *_with_diagonal(rows, columns, n, size)), opened)
 
     @property
-    def is_dense(self) -> bool:
-        """Whether all entries are present, so that they are a matrix of shape (n, n), row by row."""
-        return self.pattern is None
-
-    @property
     def n_entries(self) -> int:
         """How many entries there are."""
         return self.n**2 if self.pattern is None else len(self.pattern.rows)

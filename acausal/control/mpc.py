@@ -7,7 +7,6 @@ derivatives.
 from __future__ import annotations
 
 import time
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -30,7 +29,7 @@ from acausal.errors import (
     need_compiled,
     need_whole,
     shown,
-    user_level,
+    warn,
 )
 from acausal.export import casadi
 from acausal.modeling import by_name
@@ -240,10 +239,9 @@ class MPC:
         self._last, self._sent = best if solved else None, u[:, 0]
         self._typical = typical
         if not solved:
-            warnings.warn(
+            warn(
                 f"The controller found no optimum at t = {t:g} s ({status}): check limits and weights, or take a "
-                "shorter horizon.",
-                stacklevel=user_level(),
+                "shorter horizon."
             )
         return Plan(
             times,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import os
-import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from functools import singledispatch
 from typing import TYPE_CHECKING, Any
@@ -14,7 +13,7 @@ import numpy as np
 
 from acausal._jax import need_known
 from acausal.data.tensors import filled_like, named_arrays, read_arrays, write_arrays
-from acausal.errors import DataError, reason, shortened, shown, user_level
+from acausal.errors import DataError, reason, shortened, shown, warn
 from acausal.files import need_path
 from acausal.modeling import names_in
 
@@ -120,7 +119,7 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
     if not isinstance(model, Mapping):
         numbers = np.asarray([params[name] for name in model.layout.names], float)
         if clause := model.layout.out_of_range(numbers):
-            warnings.warn(f"'{path}': {clause}; no simulation takes that.", stacklevel=user_level())
+            warn(f"'{path}': {clause}; no simulation takes that.")
     return params
 
 

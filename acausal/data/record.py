@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
@@ -25,7 +24,7 @@ from acausal.data.given_columns import Missing, check_table, columns_of
 from acausal.data.readers import SignalTable, is_data_frame, units_said
 from acausal.data.samples import is_uniform
 from acausal.data.signal import Beyond, Interpolation, Signal
-from acausal.errors import DataError, known_name, listing, nearest, shown, user_level
+from acausal.errors import DataError, known_name, listing, nearest, shown, warn
 from acausal.modeling import ByName, names_in
 from acausal.units import convert
 
@@ -337,10 +336,9 @@ def _warn_of_celsius(signals: Mapping[str, Float[np.ndarray, " n"]], system: Sys
         usual = float(np.nanmax(np.abs([flat.nominal[same], flat.start[same]])))
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
         if usual >= WARM and CELSIUS[0] < low and high < CELSIUS[1]:
-            warnings.warn(
+            warn(
                 f"'{name}' lies between {low:.3g} and {high:.3g}, and the model has it in K. If these are degrees "
-                f"Celsius, say so, ac.Data(..., units={{'{name}': 'degC', ...}}); if they are kelvins, 'K'.",
-                stacklevel=user_level(),
+                f"Celsius, say so, ac.Data(..., units={{'{name}': 'degC', ...}}); if they are kelvins, 'K'."
             )
 
 
@@ -353,9 +351,8 @@ def _warn_of_gaps(ts: Float[np.ndarray, " n"], name: str, interpolation: str) ->
         return
     i = int(np.argmax(steps))
     others = f" and {count - 1} more gap{'s' * (count > 2)}" if count > 1 else ""
-    warnings.warn(
+    warn(
         f"'{name}' has no samples from {ts[i]:g} to {ts[i + 1]:g} s, {steps[i] / median:.3g} times its median sample "
         f"time{others}; the interpolation '{interpolation}' bridges it. If that is wrong, use the record on both "
-        "sides of the gap: data.between(start, end).",
-        stacklevel=user_level(),
+        "sides of the gap: data.between(start, end)."
     )

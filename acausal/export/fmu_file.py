@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-import warnings
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -27,7 +26,7 @@ from acausal.errors import (
     listing,
     need_flag,
     shown,
-    user_level,
+    warn,
 )
 from acausal.events import Events, updated
 from acausal.export.c_file import model_text
@@ -207,10 +206,9 @@ def _stable(
     where = "at the start"
     if damping > modes[0]:
         where = "where a condition is not what it is at the start"
-    warnings.warn(
+    warn(
         f"export.fmu: steps of {step:g} s are too long for '{text.solver}' and the model's fastest mode, "
-        f"{damping:.3g} 1/s {where}; give step={needed:.1g}, or an implicit solver such as solver='kvaerno3'.",
-        stacklevel=user_level(),
+        f"{damping:.3g} 1/s {where}; give step={needed:.1g}, or an implicit solver such as solver='kvaerno3'."
     )
     return step
 
@@ -250,10 +248,7 @@ def _compilers(
     if place is not None and command is not None:
         return [(place, [command])]
     missing = "there is no C compiler" if command is None else "FMI has no name for this platform"
-    warnings.warn(
-        f"export.fmu: {missing}, so the FMU holds sources only; its importer must compile them.",
-        stacklevel=user_level(),
-    )
+    warn(f"export.fmu: {missing}, so the FMU holds sources only; its importer must compile them.")
     return []
 
 

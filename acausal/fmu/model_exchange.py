@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import ctypes as C
 import math
-import warnings
 from collections import OrderedDict
 from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
-from acausal.errors import user_level
+from acausal.errors import warn
 from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import STEP, Differentiated, Numbers
 from acausal.fmu.description import REAL
@@ -268,11 +267,10 @@ class Evaluated(Computed):
         one, other = values[:, : part.n]
         if (abs(one - other) > DIFFERS * STEP * np.maximum(abs(one), abs(other))).any():
             self._looks = LOOKS
-            warnings.warn(
+            warn(
                 f"The gradient is wrong: the FMU '{self.description.model}' samples a number at an event and keeps it "
                 "inside, where it has no derivative, and its states follow it. Build what samples of our components; "
-                "or, if its effect is meant to be left out, ac.FMU(..., open_loop=True).",
-                stacklevel=user_level(),
+                "or, if its effect is meant to be left out, ac.FMU(..., open_loop=True)."
             )
 
     def _fast_columns(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:

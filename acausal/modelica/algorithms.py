@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from contextlib import suppress
 from functools import lru_cache
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from acausal.errors import warn
 from acausal.modelica.classes import ClassNode
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.operators import Frame
@@ -279,7 +279,7 @@ class Algorithms(Evaluator):
         node = self.frame.node
         if call.at not in node.unwatched:
             node.unwatched.add(call.at)
-            warnings.warn(str(node.wrong(call.at, what)).partition("\n")[0], stacklevel=2)
+            warn(str(node.wrong(call.at, what)).partition("\n")[0])
 
     def checked(self, call: FunctionCall) -> None:
         """An assertion: of parameters it is checked now, of others there is a warning that nothing watches it."""

@@ -5,7 +5,6 @@ While JAX traces, values are not known, and nothing can be said; it is said when
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import traced
 from acausal.codegen import Values, said_by_modules
-from acausal.errors import user_level
+from acausal.errors import warn
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -59,9 +58,8 @@ def warn_of_nonfinite(
     k, ts = first[name], np.asarray(values.t)
     others = f" (and {len(first) - 1} more)" if len(first) > 1 else ""
     where = f"'{name}'{others} is {float(read[name][k])} first at t = {ts[k]:g} s"
-    warnings.warn(
-        f"{where}, and at {int(bad[name].sum())} of {len(ts)} times. {_reason(system, values, name, k)}",
-        stacklevel=user_level(),
+    warn(
+        f"{where}, and at {int(bad[name].sum())} of {len(ts)} times. {_reason(system, values, name, k)}"
     )
 
 
@@ -74,10 +72,9 @@ def warn_of_undefined(system: System, values: Values, steps: int) -> None:
             break
     else:
         reason = ""
-    warnings.warn(
+    warn(
         f"Conditions of events are undefined (nan) at the end of {steps} steps, and count as false there: events are "
-        f"missed.{reason}",
-        stacklevel=user_level(),
+        f"missed.{reason}"
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, Any
 
 import diffrax as dfx
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from acausal._jax import array, cast, compiled, known, numpy_or_jax, select, traced
 from acausal.codegen import Packed, Values
-from acausal.errors import SimulationError, user_level
+from acausal.errors import SimulationError, warn
 from acausal.simulation import solvers
 from acausal.simulation.fixed_steps import SIDE, Steps, integrate
 from acausal.simulation.inputs import breaks, evaluate_all
@@ -77,7 +76,7 @@ def simulate_fixed(
         limit = tableau_of(scheme).stability_limit() if rough else FAR
         values = known(start._replace(t=t, x=x, u=u))
         if values is not None and (sentence := long_steps(run.system, values, float(h), limit)):
-            warnings.warn(sentence, stacklevel=user_level())
+            warn(sentence)
     t, x, u = cast((t, x, u), dtype)
     return Solution(start._replace(t=t, x=x, u=u), run.system)
 

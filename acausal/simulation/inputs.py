@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
@@ -25,7 +24,7 @@ from acausal.data import (
     is_series,
     read_series,
 )
-from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
+from acausal.errors import DataError, listing, nearest, shortened, shown, warn
 from acausal.modeling import antiderivatives, by_element, by_name
 from acausal.simulation.host_function import on_host
 from acausal.units import convert
@@ -184,10 +183,7 @@ def announce_inputs(system: System, given: Mapping[str, Any] | Data) -> None:
     lacking = [n for n in dict.fromkeys(sources.values()) if n not in given]
     if lacking and isinstance(given, Data):
         values = ", ".join(f"'{n}' is {defaults[n]:g}" for n in lacking)
-        warnings.warn(
-            f"The data lack {listing(lacking)}: {values} throughout, the start value.",
-            stacklevel=user_level(),
-        )
+        warn(f"The data lack {listing(lacking)}: {values} throughout, the start value.")
     differentiated = dict.fromkeys(s for name, s in sources.items() if s != name and s in given)
     for name in differentiated:
         value = given.signal(name, "cubic") if isinstance(given, Data) else given[name]
@@ -197,10 +193,9 @@ def announce_inputs(system: System, given: Mapping[str, Any] | Data) -> None:
             continue
         else:
             kind = "cubic"
-        warnings.warn(
+        warn(
             f"The model differentiates input '{name}': its derivative is that of the record's {kind} "
-            f"interpolation, noise included. If it was measured, give 'der({name})', too.",
-            stacklevel=user_level(),
+            f"interpolation, noise included. If it was measured, give 'der({name})', too."
         )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, cast
@@ -28,7 +27,7 @@ from acausal._jax import (
 )
 from acausal.codegen import Packed
 from acausal.data import Data, Signal, check_resolution
-from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
+from acausal.errors import DataError, need_compiled, need_whole, shown, warn
 from acausal.events import PART_OF_PERIOD
 from acausal.simulation import solvers
 from acausal.simulation.fixed import are_split, simulate_fixed
@@ -222,11 +221,10 @@ def _warn_of_another_solution(solution: Solution) -> None:
     jumps = moves > JUMP * usual + 1e-6 * size[:, None]
     if jumps.any():
         k, row = np.argwhere(jumps.T)[0]
-        warnings.warn(
+        warn(
             f"'{names[row]}' jumps from {positions[row, k]:.4g} to {positions[row, k + 1]:.4g} between t = "
             f"{t[k]:.4g} and {t[k + 1]:.4g} s: its equations have several solutions, and there it is another one. "
-            'Give ac.Start values nearer to the motion, or choose other states (stateSelect="always").',
-            stacklevel=user_level(),
+            'Give ac.Start values nearer to the motion, or choose other states (stateSelect="always").'
         )
 
 
@@ -243,10 +241,9 @@ def _warn_of_few_points(solution: Solution, span: float) -> None:
         step = system.edges.ahead(solution.values.packed, start, 1e-9 * span).longest
         period = min(period, float(step) / PART_OF_PERIOD)
     if period < apart:
-        warnings.warn(
+        warn(
             f"The {POINTS} points of the output are {apart:.3g} s apart, and a source has a period of about "
-            f"{period:.3g} s, which curves do not show. Give saveat=..., or a shorter span.",
-            stacklevel=user_level(),
+            f"{period:.3g} s, which curves do not show. Give saveat=..., or a shorter span."
         )
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 
 import numpy as np
 from jaxtyping import Float
 
 from acausal._jax import known
-from acausal.errors import SimulationError, listing, user_level
+from acausal.errors import SimulationError, listing, warn
 from acausal.simulation.solution import Solution
 
 ATOL = 1e-8
@@ -37,10 +36,9 @@ def with_small_states(simulated: Simulated, n_states: int) -> Solution:
         try:
             solution, atol = simulated(finer), finer
         except SimulationError as error:
-            warnings.warn(
+            warn(
                 f"{listing(small, 4)}: these states stay so small that atol={ATOL:g} does not control their errors, "
-                f"and finer steps do not succeed: {error} Give atol= of the size of their errors, one for each state.",
-                stacklevel=user_level(),
+                f"and finer steps do not succeed: {error} Give atol= of the size of their errors, one for each state."
             )
             break
     return solution

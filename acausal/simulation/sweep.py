@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -25,7 +24,7 @@ from acausal.errors import (
     need_text,
     need_whole,
     shown,
-    user_level,
+    warn,
 )
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import ByName, by_name, names_in, names_matching
@@ -367,10 +366,9 @@ def _warn_of_broken(runs: Solution, columns: Mapping[str, Float[np.ndarray, " n"
         return
     first = int(np.argmin(finite))
     where = ", ".join(f"{name} = {column[first]:g}" for name, column in columns.items())
-    warnings.warn(
+    warn(
         f"{np.sum(~finite)} of {finite.size} variants did not reach the end, the first with {where}: their values are "
-        "not finite. Simulate that one alone to see why.",
-        stacklevel=user_level(),
+        "not finite. Simulate that one alone to see why."
     )
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
-from acausal.errors import StructureError, listing, user_level
+from acausal.errors import StructureError, listing, warn
 from acausal.flattening import (
     FEW_VARIANTS,
     FlatModel,
@@ -287,11 +286,10 @@ class Equations:
         if (
             t := jump_of(template.residual, dict(zip(template.parameters, own, strict=True)))
         ) is not None:
-            warnings.warn(
+            warn(
                 f"The model needs the derivative of '{self.origin[equation]}', which jumps at t = {t:g} s: the impulse "
                 "there is left out, with the energy that it brings. Put something between that gives way, such as a "
-                "resistance or a spring, or take a source that does not jump.",
-                stacklevel=user_level(),
+                "resistance or a spring, or take a source that does not jump."
             )
 
     def insert_signals(self) -> None:

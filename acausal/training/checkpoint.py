@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import time
-import warnings
 from collections.abc import Callable, Generator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -13,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.data import filled_like, named_arrays, read_arrays, write_arrays
-from acausal.errors import DataError, TrainingError, listing, reason, user_level
+from acausal.errors import DataError, TrainingError, listing, reason, warn
 from acausal.files import Lock
 from acausal.training.history import LogContent
 from acausal.training.member import Best
@@ -167,10 +166,7 @@ class _Keeper:
             error = self._try()
             if error and not self.warned:
                 self.warned = True
-                warnings.warn(
-                    f"{self._cannot_be_written(error)} The training goes on.",
-                    stacklevel=user_level(),
-                )
+                warn(f"{self._cannot_be_written(error)} The training goes on.")
 
     def close(self) -> None:
         """Write the latest snapshot if that was not done yet."""
@@ -178,10 +174,9 @@ class _Keeper:
             return
         error = self._try()
         if error:
-            warnings.warn(
+            warn(
                 f"{self._cannot_be_written(error)} The training has ended: save its result elsewhere, "
-                "ac.save_params(fit.params, ...).",
-                stacklevel=user_level(),
+                "ac.save_params(fit.params, ...)."
             )
 
     def _try(self) -> OSError | None:

@@ -9,12 +9,11 @@ import csv
 import io
 import logging
 import os
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from acausal.errors import DataError, TrainingError, need_package, reason, user_level
+from acausal.errors import DataError, TrainingError, need_package, reason, warn
 from acausal.files import need_path, replace_file
 from acausal.training.progress import Progress
 
@@ -90,7 +89,7 @@ class CsvLog:
         if not self._warned:
             self._warned = True
             text = f"Log '{self.path}' {what} at epoch {progress.epoch}{more}"
-            warnings.warn(text, stacklevel=user_level())
+            warn(text)
 
     def _begin(self, epoch: int) -> None:
         """Keep only the lines of earlier updates, before the first line is written."""

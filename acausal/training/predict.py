@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any, NamedTuple
@@ -15,7 +14,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import compiled, is_number, levenberg_marquardt, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, known_name, listing, shown, user_level
+from acausal.errors import DataError, known_name, listing, shown, warn
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import by_name
 from acausal.simulation import Adaptive
@@ -194,11 +193,10 @@ def _warn_of_steps(
 ) -> None:
     i = int(np.argmax(change / noise))
     name = fit.problem.targets[i]
-    warnings.warn(
+    warn(
         f"predict: steps of half the length change '{name}' by up to {change[i]:.3g} {fit.system.unit(name)}, and by "
         f"{of_fit[i]:.3g} in the records of the fit; the noise is {noise[i]:.2g}. The fit's steps are too long: fit "
-        "with a smaller dt=, or by strategy='auto', which chooses them.",
-        stacklevel=user_level(),
+        "with a smaller dt=, or by strategy='auto', which chooses them."
     )
 
 

@@ -7,7 +7,6 @@ for each part of the samples that is left out.
 from __future__ import annotations
 
 import logging
-import warnings
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -16,7 +15,7 @@ from typing import Any
 import jax
 import numpy as np
 
-from acausal.errors import DataError, TrainingError, user_level
+from acausal.errors import DataError, TrainingError, warn
 from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
 from acausal.training.auto.step_choice import StepChoice, finer_steps
 from acausal.training.auto.verdict import explains, step_error
@@ -97,7 +96,7 @@ def run(
         whole = options.automatic and options.sample_weights is None and not limited
         misread = () if from_data is None else from_data.concerns(one.best.loss)
         for sentence in (*concerns(own, start, one, whole=whole), *misread):
-            warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
+            warn(f"{prefix}{sentence}")
     described = options.described()
     linear = None if from_data is None else from_data.linear
     loose = () if linear is None else linear.loose

@@ -93,12 +93,6 @@ class TrainedModel:
         return self._only("predicted").predicted
 
     @property
-    def predicted_before(self) -> Float[np.ndarray, "N n_targets"]:
-        """The same before training."""
-        self._only("predicted")
-        return next(iter(self.before.values())).predicted
-
-    @property
     def time(self) -> Float[np.ndarray, " N"]:
         """The times of the only record, in seconds."""
         return self._only("time").time

@@ -6,7 +6,6 @@ its slots. Values and starts given by expressions are checked, too, and connecte
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -15,7 +14,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.errors import UnitError, shortened, shown
+from acausal.errors import UnitError, shortened, shown, warn
 from acausal.flattening import (
     Binding,
     EquationGroup,
@@ -56,7 +55,7 @@ def check_dimensions(flat: FlatModel) -> None:
 
 def _report(flat: FlatModel, wrong: Sequence[str]) -> None:
     if wrong and not flat.layout.components[0]._units_bind:
-        warnings.warn(_listed(wrong), stacklevel=4)
+        warn(_listed(wrong))
     elif wrong:
         raise UnitError(_listed(wrong))
 

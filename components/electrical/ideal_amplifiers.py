@@ -70,7 +70,9 @@ class _Limited(_ThreePins):
         kind="int",
         doc="1 at the upper limit, -1 at the lower limit, 0 between, 2 or -2 while it is tried to leave one",
     )
-    pull = ac.Discrete(doc="at a limit, how much the input asked for a higher output at the last event")
+    pull = ac.Discrete(
+        doc="at a limit, how much the input asked for a higher output at the last event"
+    )
     push = ac.Variable(
         start=1.0, doc="while leaving is tried: above zero if it leads to the middle"
     )

@@ -38,7 +38,7 @@ def test_entries_are_those_of_the_dense_jacobian(case):
     system, field, n_colors = case
     jacobian, packed = system.state_jacobian, system.pack()
     n = len(system.states)
-    assert jacobian.is_dense == (n < 32)
+    assert (jacobian.pattern is None) == (n < 32)
     assert jacobian.n_colors == n_colors
     assert set(range(n)) <= set(jacobian.rows[jacobian.rows == jacobian.columns].tolist())
     entries = jax.jit(lambda x, packed: jacobian.entries(field(packed), x))
@@ -61,7 +61,7 @@ def test_a_dense_jacobian_of_many_states(monkeypatch):
     system = ac.compile(Plate(7))
     monkeypatch.setattr(state_jacobian, "DENSE", 0.0)
     jacobian, packed = system.state_jacobian, system.pack()
-    assert jacobian.is_dense
+    assert jacobian.pattern is None
     x = jnp.linspace(1.0, 2.0, 49)
     field = lambda x: system.rates(system.values(0.0, x, None, packed)) * x  # noqa: E731
     found, expected = jax.jit(lambda x: (jacobian.entries(field, x), jax.jacfwd(field)(x)))(x)
@@ -196,7 +196,7 @@ def test_equal_loops_are_opened_side_by_side(monkeypatch):
 def test_loops_stay_closed_where_the_jacobian_is_small():
     system = ac.compile(Pack(12, 3, lambda k: el.Resistor(R=1.0)))
     assert system.state_jacobian.open_loops == ()
-    assert system.state_jacobian.is_dense
+    assert system.state_jacobian.pattern is None
 
 
 def test_loops_are_opened_where_that_saves_entries(monkeypatch):

@@ -55,7 +55,8 @@ def test_every_member_is_the_training_of_its_seed():
     assert member.loss == pytest.approx(alone.loss, rel=1e-6)
     assert member.loss_before == alone.loss_before
     assert member.validation_loss == pytest.approx(alone.validation_loss, rel=1e-6)
-    np.testing.assert_allclose(member.predicted_before, alone.predicted_before)
+    before = [next(iter(fit.before.values())).predicted for fit in (member, alone)]
+    np.testing.assert_allclose(*before)
     assert member.loss != trained().fits[0].loss
 
 

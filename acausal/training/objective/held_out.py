@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from numbers import Real
@@ -13,7 +12,7 @@ import numpy as np
 
 from acausal._jax import is_number
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, known_name, listing, shown, user_level
+from acausal.errors import DataError, known_name, listing, shown, warn
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.lay_out import lay_out, sample_time
 from acausal.training.objective.problem import Problem
@@ -54,10 +53,9 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
     held = records_of(cast(RecordsLike, validation))
     for name, record in held.items():
         if same := next((n for n, d in data.items() if _are_alike(d, record)), None):
-            warnings.warn(
+            warn(
                 f"validation: '{name}' is the training's own record '{same}', which cannot show how well the model "
-                "predicts: hold out another record, or a part of it, such as validation=0.2.",
-                stacklevel=user_level(),
+                "predicts: hold out another record, or a part of it, such as validation=0.2."
             )
     return Split(data, held, {})
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import acausal.export as export
-from acausal.errors import DataError, known_name, shown, user_level
+from acausal.errors import DataError, known_name, shown, warn
 from acausal.files import file_to_write, json_text, need_path, write_files
 from acausal.modeling import by_name
 from acausal.training.presentation.model_card import facts, markdown
@@ -49,10 +48,9 @@ def export_with_card(
         file_to_write(card, "fit.export", need_folder=False)
     if late := [*fit.delays.items(), *fit.lags.items()]:
         told = ", ".join(f"'{name}' by {seconds:.4g} s" for name, seconds in late)
-        warnings.warn(
+        warn(
             f"fit.export: delays and lags lie outside the model, so '{target.name}' does not have them; where it is "
-            f"used, delay {told}.",
-            stacklevel=user_level(),
+            f"used, delay {told}."
         )
     if not isinstance(confidence, Confidence | None):
         raise DataError(
