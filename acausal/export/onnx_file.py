@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +40,8 @@ def onnx(
 
     Arguments:
         model: a compiled system; a network: a module that is called with scalars; or an observer, whose step takes
-            ``t``, ``u``, ``y`` and what it remembers, which is also its result.
+            ``t``, ``u``, ``y`` and what it remembers: its results ``t_after``, ``u_after``, ``mean_after`` and
+            ``covariance_after`` are the next step's ``t_before``, ``u_before``, ``mean`` and ``covariance``.
         path: the file, usually ``….onnx``.
         params: of the system; by default its own.
         network: the name of a network among ``params``, to write it alone.
@@ -66,12 +68,23 @@ def onnx(
     from acausal.export.onnx_text import model_of
 
     target = target_of(model, params, network, inputs, outputs, units, parameters, "onnx")
+    target = _with_names_apart(target)
     closed = traced(target, batch, "onnx")
     names = [p.name for p in target.inputs], [p.name for p in target.outputs]
     defaults = {p.name: p.default for p in target.inputs if p.default is not None}
     message = model_of(closed, names, defaults, real, target.title, notes(target))
     write_files({file: message.SerializeToString()})
     return file
+
+
+def _with_names_apart(target: Target) -> Target:
+    """What is both given and a result, as what an observer remembers, has two names in a graph."""
+    given = {p.name for p in target.inputs}
+    results = [
+        replace(p, name=f"{p.name.removesuffix('_before')}_after") if p.name in given else p
+        for p in target.outputs
+    ]
+    return replace(target, outputs=tuple(results))
 
 
 def notes(target: Target) -> dict[str, str]:

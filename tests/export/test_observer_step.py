@@ -129,6 +129,27 @@ def test_stablehlo_has_the_same_step(vehicle: ac.System, rows: Rows, tmp_path: P
     np.testing.assert_allclose(memory[2], observer.mean, rtol=1e-12, atol=1e-14)
 
 
+@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.parametrize("method", ["ekf", "ukf"])
+def test_onnx_has_the_same_step(vehicle: ac.System, rows: Rows, tmp_path: Path, method: str):
+    onnxruntime = pytest.importorskip("onnxruntime")
+    observer = seen(vehicle, method)
+    path = ac.export.onnx(observer, tmp_path / "seen.onnx", outputs=["body.a"])
+    options = onnxruntime.SessionOptions()
+    options.log_severity_level = 3
+    session = onnxruntime.InferenceSession(str(path), options)
+    given = ("t_before", "u_before", "mean", "covariance")
+    found = [np.asarray(a) for a in observer.step_of_arrays.start]
+    for t, u, y in rows[:20]:
+        observer.step(t, np.array([u]), dict(zip(SENSORS, y, strict=True)))
+        known = dict(zip(given, found, strict=False))
+        found = session.run(None, {"t": np.asarray(t), "u": np.array([u]), "y": y, **known})
+    assert [o.name for o in session.get_outputs()][2:4] == ["mean_after", "covariance_after"]
+    np.testing.assert_allclose(found[2], observer.mean, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(found[3], observer.covariance, rtol=1e-9, atol=1e-12)
+    assert found[4][0] == pytest.approx(observer["body.a"], rel=1e-9)
+
+
 def test_what_an_observer_has_already_is_refused(vehicle: ac.System, tmp_path: Path):
     observer = seen(vehicle, "ekf")
     with pytest.raises(ac.DataError, match=r"export\.c: an observer has its own parameters"):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal._jax import bind
-from acausal.export.onnx_text.builder import WHOLE, OnnxGraph, Rule, Site, Tensor, Value
+from acausal.export.onnx_text.builder import WHOLE, Rule, Site, Tensor, Value
 from acausal.export.traced import places, subscripts
 
 
@@ -252,27 +252,31 @@ def _cumsum(site: Site) -> list[str]:
 
 
 def _dot(site: Site) -> list[str]:
-    """``Gemm`` of matrices, which turns them itself, ``MatMul`` with vectors, else ``Einsum``."""
+    """``MatMul`` of constants with vectors; ``Gemm`` of matrices, which turns them itself; else ``Einsum``.
+
+    onnxruntime (1.32) loses the transposition of a matrix that ``MatMul`` takes beside a vector.
+    """
     g, (one, two) = site.graph, site.values
     (left, right), (batch, _) = site.params["dimension_numbers"]
     ranks = [len(shape) for shape in site.shapes]
     if not len(batch) and len(left) == 1 and max(ranks) <= 2:
         turned = left[0] != ranks[0] - 1, right[0] != 0
-        if ranks == [2, 2]:
-            a, b = site.names
-            return [g.add("Gemm", a, b, transA=int(turned[0]), transB=int(turned[1]))]
-        a = _turned(g, one) if turned[0] else g.read(one)
-        b = _turned(g, two) if turned[1] else g.read(two)
-        return [g.add("MatMul", a, b)]
+        matrices = [v for v, rank in zip((one, two), ranks, strict=True) if rank == 2]
+        if len(matrices) < 2 and not any(isinstance(m, Tensor) for m in matrices):
+            a, b = (
+                g.read(v) if isinstance(v, Tensor) or not turn else g.constant(v.T)
+                for v, turn in zip((one, two), turned, strict=True)
+            )
+            return [g.add("MatMul", a, b)]
+        vectors = [axis for axis, rank in enumerate(ranks) if rank == 1]
+        a, b = (
+            g.add("Unsqueeze", name, g.integers(axis)) if axis in vectors else name
+            for axis, name in enumerate(site.names)
+        )
+        product = g.add("Gemm", a, b, transA=int(turned[0]), transB=int(turned[1]))
+        return [g.add("Squeeze", product, g.integers(*vectors)) if vectors else product]
     equation = subscripts(site.params["dimension_numbers"], ranks)
     return [g.add("Einsum", *site.names, equation=equation)]
-
-
-def _turned(g: OnnxGraph, matrix: Value) -> str:
-    """A matrix with its axes exchanged, now if it is known."""
-    if isinstance(matrix, Tensor):
-        return g.add("Transpose", matrix.name, perm=[1, 0])
-    return g.constant(matrix.T)
 
 
 RULES: dict[str, Rule] = {
