@@ -128,3 +128,9 @@ def lookup(x: Any, points: Sequence[Sequence[Any]], smoothness: Smoothness) -> A
         within = within if i == len(points) - 2 else ac.minimum(within, x1)
         value += (y1 - y0) / (x1 - x0) * (within - x0)
     return value
+
+
+def friction_over_speed(speed: Any, points: Sequence[Sequence[Any]], smoothness: Smoothness) -> Any:
+    """Friction from a table: where one that falls ends, it goes on to zero, and does not drive."""
+    found = lookup(speed, points, smoothness)
+    return found if len(points) == 1 else ac.maximum(found, 0)

@@ -5,7 +5,7 @@ from typing import Any
 
 import acausal as ac
 from acausal.components import icons
-from acausal.components.laws import SMOOTHNESS, coulomb, lookup
+from acausal.components.laws import SMOOTHNESS, coulomb, friction_over_speed
 from acausal.components.mechanics.friction import AWAKE, Locking
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
@@ -50,7 +50,7 @@ class _Pressed(_ByCurve):
     fn = ac.Variable(unit="N", doc="normal force")
 
     def _curve(self, speed: Any) -> Any:
-        return lookup(speed, self.mu_pos, self.smoothness)
+        return friction_over_speed(speed, self.mu_pos, self.smoothness)
 
     @property
     def _at_rest(self) -> Any:
@@ -145,7 +145,7 @@ class BearingFriction(PartialBearingFriction):
     tau_pos = ac.Parameter([[0.0, 1.0]], shape=(":", ":"), doc="rows of speed and friction torque")
 
     def _curve(self, speed: Any) -> Any:
-        return lookup(speed, self.tau_pos, self.smoothness)
+        return friction_over_speed(speed, self.tau_pos, self.smoothness)
 
 
 class Brake(_ShaftFriction, _PressedFriction):

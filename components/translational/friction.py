@@ -5,7 +5,13 @@ from typing import Any
 
 import acausal as ac
 from acausal.components import icons
-from acausal.components.laws import REGULARIZATION, SMOOTHNESS, coulomb, lookup, regularized_sign
+from acausal.components.laws import (
+    REGULARIZATION,
+    SMOOTHNESS,
+    coulomb,
+    friction_over_speed,
+    regularized_sign,
+)
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
 from .interfaces import (
@@ -91,7 +97,7 @@ class SupportFriction(PartialSupportFriction):
     f_pos = ac.Parameter([[0.0, 1.0]], shape=(":", ":"), doc="rows of speed and friction force")
 
     def _curve(self, speed: Any) -> Any:
-        return lookup(speed, self.f_pos, self.smoothness)
+        return friction_over_speed(speed, self.f_pos, self.smoothness)
 
 
 class Brake(_SlidingContact):
@@ -126,7 +132,7 @@ class Brake(_SlidingContact):
         yield ac.Eq(self.f, self._friction(self.mu * self.cgeo * self.fn))
 
     def _curve(self, speed: Any) -> Any:
-        return lookup(speed, self.mu_pos, self.smoothness)
+        return friction_over_speed(speed, self.mu_pos, self.smoothness)
 
 
 class RollingResistance(PartialSpeedDependentForce):

@@ -338,3 +338,16 @@ def test_a_gear_without_losses_of_teeth_has_no_undefined_conditions():
     """A warning of these would fail."""
     run = ac.simulate(ac.compile(Bearings()), 1.0, inputs={"drive.tau": 2.0})
     assert float(run["input.w"][-1]) == pytest.approx((2.0 - 0.5) / (1.0 + 4.0 / 2**2), rel=1e-6)
+
+
+def test_friction_that_falls_with_speed_does_not_drive():
+    """By its table the bearing would drive from 60 rad/s on."""
+    shaft = ac.Component()
+    shaft.inertia = rot.Inertia(J=1.0, phi=REST, w=at(70.0))
+    shaft.bearing = rot.BearingFriction(tau_pos=[[0.0, 1.0], [10.0, 0.5], [20.0, 0.4]])
+    shaft.brake = rot.Torque()
+    shaft.connect(shaft.inertia.flange_b, shaft.bearing.flange_a, shaft.brake.flange)
+    found = ac.simulate(ac.compile(shaft), 30.0, inputs={"brake.tau": -1.0})
+    assert float(jnp.max(jnp.diff(found["inertia.w"]))) < 0
+    assert float(jnp.max(found["bearing.tau"])) > 0
+    assert float(jnp.min(found["bearing.tau"])) == 0
