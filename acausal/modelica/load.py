@@ -53,16 +53,19 @@ def load(
         raise ModelError(
             f"load(file, model) takes the name of a model, not {shown(model)}; libraries=[...] lists modules"
         )
-    if file.suffix != ".mo" and not file.is_dir():
-        if model is not None:
-            raise ModelError(f"{file.name} is a netlist, which is one model; leave out '{model}'")
-        return netlist.load(file, libraries, budget=budget, allow_native=allow_native)
-    allowed = Budget() if budget is None else budget
-    tree = Tree(netlist.libraries_of(libraries), need_paths(path, "load", ModelError))
+    is_netlist = file.suffix != ".mo" and not file.is_dir()
+    if is_netlist and model is not None:
+        raise ModelError(f"{file.name} is a netlist, which is one model; leave out '{model}'")
+    allowed, known = Budget() if budget is None else budget, netlist.libraries_of(libraries)
+    folders = need_paths(path, "load", ModelError)
     native = need_flag(allow_native, "load: allow_native", ModelError)
     with collection_paused(), spending(allowed, file.parent if native else None):
-        found = class_of(_wanted(file, tree, _added(tree, file), model))()
-        netlist.check_sizes(found)
+        if is_netlist:
+            found = netlist.read_model(file, known)
+        else:
+            tree = Tree(known, folders)
+            found = class_of(_wanted(file, tree, _added(tree, file), model))()
+            netlist.check_sizes(found)
     found._node.budget = allowed
     return found
 

@@ -16,7 +16,7 @@ from acausal.netlist.library import (
 from acausal.netlist.load_save import (
     check_sizes as check_sizes,
     libraries_of as libraries_of,
-    load as load,
+    read_model as read_model,
     save as save,
 )
 from acausal.netlist.model import attribute as attribute, member as member

@@ -27,9 +27,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from acausal.errors import ModelError, need_flag, shown
+from acausal.errors import ModelError, shown
 from acausal.files import need_path
-from acausal.modeling import Budget, BudgetError, Component, Declaration, spending
+from acausal.modeling import BudgetError, Component, Declaration
 from acausal.netlist import file as netlist_file
 from acausal.netlist.file import within
 from acausal.netlist.library import Library, installed
@@ -38,36 +38,16 @@ from acausal.netlist.reader import build
 from acausal.netlist.writer import Writer
 
 
-def load(
-    path: str | Path,
-    libraries: Sequence[ModuleType] = (),
-    *,
-    budget: Budget | None = None,
-    allow_native: bool = False,
-) -> Netlist:
-    """Read a model from a JSON netlist.
-
-    Arguments:
-        path: the file.
-        libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
-        budget: how large the model may become, here and when it is compiled; by default ``ac.Budget()``.
-        allow_native: whether the model may have parts that run native code, FMUs; their paths are relative to the file.
-
-    Returns:
-        The model, a `Component` with the parts of the file.
+def read_model(path: Path, libraries: tuple[Library, ...]) -> Netlist:
+    """A model from a JSON netlist.
 
     Raises:
         ModelError: in one sentence, with the line or field, for a file that cannot be read, a class or name
             that does not exist, an expression that is malformed, a model that is larger than its budget.
     """
-    path, known = need_path(path, "load", ModelError), libraries_of(libraries)
-    allowed = Budget() if budget is None else budget
-    native = need_flag(allow_native, "load: allow_native", ModelError)
-    with spending(allowed, path.parent if native else None):
-        document = netlist_file.read(path)
-        model = within(path.name, lambda: build(document, path.name, known))
-        within(path.name, lambda: check_sizes(model))
-    model._node.budget = allowed
+    document = netlist_file.read(path)
+    model = within(path.name, lambda: build(document, path.name, libraries))
+    within(path.name, lambda: check_sizes(model))
     return model
 
 
