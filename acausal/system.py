@@ -383,7 +383,7 @@ class System(LeavesCaches):
     def vector_field(
         self, t: ArrayLike, x: ArrayLike, u: ArrayLike | None, params: Params
     ) -> Float[Array, " n_states"]:
-        """Derivatives of the states; discrete variables have their start values.
+        """Derivatives of the states; discrete variables are those that a simulation would begin with there.
 
         Arguments:
             t: time [s]. x: states, shape (n_states,). u: inputs, shape (n_inputs,), or None if there are none.
@@ -392,7 +392,7 @@ class System(LeavesCaches):
         Returns:
             dx/dt, shape (n_states,).
         """
-        return self.rates(self.values(t, x, u, params))
+        return self.rates(self._values_in_modes(t, x, u, params))
 
     def observe(
         self,
@@ -407,7 +407,7 @@ class System(LeavesCaches):
         ``der(name)`` gives a derivative that the model knows.
         """
         names = names_in(name)
-        y = self.read(names, self.values(t, x, u, params))
+        y = self.read(names, self._values_in_modes(t, x, u, params))
         return y[0] if isinstance(name, str) else y
 
     def vector_field_and_observe(
@@ -423,7 +423,13 @@ class System(LeavesCaches):
         Shared values are computed and differentiated only once. In the gradient of a loss this is twice as fast as
         `vector_field` and `observe`.
         """
-        return self.rates_and_read(names, self.values(t, x, u, params))
+        return self.rates_and_read(names, self._values_in_modes(t, x, u, params))
+
+    def _values_in_modes(
+        self, t: ArrayLike, x: ArrayLike, u: ArrayLike | None, params: Params
+    ) -> Values:
+        values = self.values(t, x, u, params)
+        return values if self.events is None else values._replace(d=self.modes(values).d)
 
     # -- the same with values in one record, for simulation and training ------------------------------
 
@@ -532,7 +538,7 @@ class System(LeavesCaches):
 
         if self.events is None or not self.initializer.solves(x0, steady, least_squares):
             return state(None), None
-        start = self.blank(packed, t0, u)
+        start = self.blank(packed, t0, u, x0)
         return before_events(self.events, start, state, self.describe_discrete)
 
     def start_values(
@@ -551,13 +557,19 @@ class System(LeavesCaches):
 
         if self.events is None:
             return self.values(t0, state(None), u0, packed)
-        at = self.blank(packed, t0, u0)
+        at = self.blank(packed, t0, u0, x0)
         return start_of(self.events, at, state, self.describe_discrete)._replace(t=t0)
 
-    def blank(self, packed: Packed, t0: float, u0: ArrayLike | None = None) -> Values:
-        """The values at a time before states are found: these are zero, and discrete variables have their starts."""
+    def blank(
+        self,
+        packed: Packed,
+        t0: float,
+        u0: ArrayLike | None = None,
+        x0: Mapping[str, Numbers] | Numbers | None = None,
+    ) -> Values:
+        """The values at a time before states are found: these and discrete variables have their starts."""
         u = array(np.zeros(len(self.inputs))) if u0 is None else u0
-        at = self.values(array(t0), array(np.zeros(len(self.states))), u, packed)
+        at = self.values(array(t0), self.initializer.starts(packed, x0), u, packed)
         return at._replace(d=self.initializer.conditions.discrete_start(packed))
 
     def watching(self) -> System:

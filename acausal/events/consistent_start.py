@@ -95,7 +95,11 @@ def before_events(
     Arguments and errors as for `start_of`.
     """
     assert start.d is not None
-    now = before = initial_state(start.d), start.d
+    d = _begun(events, start)
+    try:
+        now = before = initial_state(d), d
+    except InitializationError:
+        now = before = initial_state(start.d), start.d
     for _ in range(STARTS):
         found = _begun(events, start._replace(x=now[0]))
         now, before = (initial_state(found), found), now
@@ -125,7 +129,8 @@ def start_of(
 
     Arguments:
         events: of the model.
-        start: the values at the start, with the discrete variables' start values; the states do not count.
+        start: the values at the start, with the start values of discrete variables, and of states those from which
+            they are looked for.
         initial_state: finds the states for given discrete variables.
         describe: names the discrete variable at a place.
 

@@ -120,6 +120,16 @@ class Initializer(LeavesCaches):
         at = Values(array(t0), self.conditions.starts(packed), u0, packed, d)
         return self._solution(at, self.by_state(x0 or {}), steady, least_squares)[1].x
 
+    def starts(
+        self, packed: Packed, x0: Mapping[str, ArrayLike] | ArrayLike | None
+    ) -> Float[Array, " n_states"]:
+        """Where states are looked for from: what is given, and the starts of the others."""
+        starts = self.conditions.starts(packed)
+        if x0 is None or isinstance(x0, Mapping):
+            return self._posed(starts, self.by_state(x0 or {}), False, False)[0]
+        whole = self._whole(x0)
+        return jnp.concatenate([whole, starts[len(whole) :]])
+
     def solves(self, x0: Any, steady: bool | Sequence[str], least_squares: bool) -> bool:
         """Whether states follow from equations, and not from starts and ``x0`` alone."""
         is_exact = bool(self.reduced.exact.all())

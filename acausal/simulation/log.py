@@ -28,6 +28,10 @@ That is enough for all `LOG` events of models with up to 104 of them. There are 
 side by side need a thousand times the room.
 """
 
+SOON, AT_ONCE, FASTER, LAST = 1e-6, 1e-9, 0.7, 8
+"""Events of a condition have no end where three of the last follow sooner and sooner, by this factor: the first within
+`SOON` of the run's span, the third and all behind it within `AT_ONCE`. Then rounding hides the others."""
+
 LINES = 18
 """Events that a list of them shows."""
 
@@ -159,6 +163,26 @@ class Log(NamedTuple):
         n = int(log.total)
         columns = (np.asarray(a)[:n] for a in log._replace(total=log.t))
         return Log(*columns)._replace(total=log.total)  # pyright: ignore[reportArgumentType]
+
+    def without_end(self, span: float) -> tuple[float, int] | None:
+        """Time and condition of the last event behind which none was told apart, as they followed ever sooner.
+
+        A ball that bounces lower and lower comes to this: the model goes on as if the condition was not there.
+
+        Arguments:
+            span: of the run [s].
+        """
+        log = self.kept()
+        if int(log.total) > len(log.t):
+            return None
+        for which in np.unique(log.which[log.which >= 0]).tolist():
+            t = log.t[log.which == which][-LAST:]
+            gaps = np.diff(t) / span
+            sooner = gaps[1:] < FASTER * gaps[:-1]
+            three = sooner[1:] & sooner[:-1] & (gaps[:-2] < SOON)
+            if (three & (np.cumsum(gaps[::-1])[::-1][2:] < AT_ONCE)).any():
+                return float(t[-1]), which
+        return None
 
     def conditions(self, system: System) -> list[tuple[str, str]]:
         """The component and the condition that changed first, of each event that is kept."""

@@ -361,15 +361,22 @@ def _variants(
 
 
 def _warn_of_broken(runs: Solution, columns: Mapping[str, Float[np.ndarray, " n"]]) -> None:
-    finite = np.all(np.isfinite(np.asarray(runs.x)), axis=(1, 2))
-    if finite.all():
-        return
-    first = int(np.argmin(finite))
-    where = ", ".join(f"{name} = {column[first]:g}" for name, column in columns.items())
-    warn(
-        f"{np.sum(~finite)} of {finite.size} variants did not reach the end, the first with {where}: their values are "
-        "not finite. Simulate that one alone to see why."
-    )
+    broken = ~np.all(np.isfinite(np.asarray(runs.x)), axis=(1, 2))
+    endless, span = np.zeros_like(broken), float(np.ptp(runs.t))
+    if runs.log is not None:
+        logs = (jax.tree.map(lambda a, k=k: a[k], runs.log) for k in range(len(broken)))
+        endless |= [log.without_end(span) is not None for log in logs]
+    for which, why in (
+        (broken, "did not reach the end: their values are not finite"),
+        (endless, "went on behind events that follow each other without end"),
+    ):
+        if which.any():
+            first = int(np.argmax(which))
+            where = ", ".join(f"{name} = {column[first]:g}" for name, column in columns.items())
+            warn(
+                f"{np.sum(which)} of {which.size} variants {why}, the first with {where}. Simulate that one alone to "
+                "see why."
+            )
 
 
 def _label(name: str, unit: str) -> str:

@@ -27,6 +27,9 @@ from acausal.simulation.steps.solve import FirstRun, Solved, begin_to_compile, f
 
 Tolerance = float | Array
 
+REST = "The model slides along this condition, or bounces for ever: give it a state of rest, or a hysteresis."
+"""What to do where events follow each other without end."""
+
 
 class ModelField(RightHandSide):
     """The right-hand side for inputs that are functions of time.
@@ -93,6 +96,7 @@ class InSteps:
         if (why := known(found.why)) is not None and not traced(x):
             if int(why) == REACHED:
                 run.refuse_broken(x, self.saved, solved.method)
+                _refuse_without_end(run, found, solved.method)
             else:
                 has_dt = self.ends is not None
                 explicit = self.solver is not None and not int(c.jacobians)
@@ -166,10 +170,7 @@ def _stopped(
             f"{where}: at an event {circle} change each other without end{last}. {advice}"
         )
     if why == CHATTERS:
-        return SimulationError(
-            f"{where}: events follow each other without end{last}. The model slides along this condition, or bounces "
-            "for ever: give it a state of rest, or a hysteresis."
-        )
+        return SimulationError(f"{where}: events follow each other without end{last}. {REST}")
     ahead = (run.end - run.begin) / max_steps if why == EXHAUSTED else run.end - reached
     reason = run.explain(at, 0.0 if found.log is not None else ahead)
     if reason := reason or ("" if why == EXHAUSTED else run.said()):
@@ -200,6 +201,21 @@ def _stopped(
         f"{where}, after max_steps={max_steps}. {slides}Perhaps {hint}it slides or diverges there, or its inputs are "
         "rough (raise max_steps, loosen rtol, or give dt for fixed steps)."
     )
+
+
+def _refuse_without_end(run: Run, found: LoopResult, method: str) -> None:
+    """Refuse a run that has gone on behind events that followed each other without end.
+
+    Raises:
+        SimulationError: for it.
+    """
+    events, log = run.system.events, found.log
+    if events is not None and log is not None and (last := log.without_end(run.end - run.begin)):
+        t, condition = last[0], events.describe(last[1])
+        raise SimulationError(
+            f"The simulation with {method} cannot go on behind t = {t:.9g} s: events follow each other without end "
+            f"({condition}). {REST}"
+        )
 
 
 def _last(run: Run, found: LoopResult) -> str:
