@@ -378,8 +378,10 @@ def point_of(
     params: Params | None,
     t: float | None,
 ) -> Values:
-    """The values of a model where it is linearized; arguments and errors as of `linearize`."""
+    """The values of a model where it is linearized, with what holds there; arguments and errors as of `linearize`."""
     if isinstance(x, OperatingPoint):
+        if inputs is None and params is None and t is None:
+            return x.values
         params, t = x.values.packed if params is None else params, x.time if t is None else t
         inputs = x.u if inputs is None else inputs
         x = x.x
@@ -399,7 +401,7 @@ def linearize(
     params: Params | None = None,
     t: float | None = None,
 ) -> Linearization:
-    """Linearize a model at a point.
+    """Linearize a model at a point, with the conditions as they are there: switches, diodes, frictions.
 
     Arguments:
         system: a compiled model.

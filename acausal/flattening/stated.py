@@ -237,8 +237,10 @@ class _Sorting:
             self._update(target, sp.Piecewise(*some, (Previous(target), True)), str(when))
         for state, some in jumps.items():
             if state in self.jumps:
+                own = self.component._node
+                name = ".".join((*(state.owner.route_from(own) or ()), state.path))
                 raise DeclarationError(
-                    f"{self.component._node.label}: two When(...) make '{state.path}' jump; join them by otherwise="
+                    f"{own.label}: two When(...) make '{name}' jump; join them by otherwise="
                 )
             value = sp.Piecewise(*some, (state, True))
             self.jumps[state] = UpdateStatement(state, value, str(when))

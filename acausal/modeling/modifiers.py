@@ -48,6 +48,8 @@ def record_modifier(
                     )
                 _merge_start(node, f"{name}.{key}", start_of(f"{where}.{key}", start))
         case Option():
+            if isinstance(value, str) and f"'{value}'" in (declared.choices or ()):
+                value = f"'{value}'"  # a name of Modelica that stands in quotes, such as '1'
             if declared.choices is not None and value not in declared.choices:
                 choices = ", ".join(map(repr, declared.choices))
                 raise DeclarationError(f"{where}={shown(value)} must be one of {choices}")

@@ -6,7 +6,7 @@ from typing import Any
 import acausal as ac
 from acausal.components import icons
 
-from .conventions import INIT
+from .conventions import INIT, LIMITER_HOMOTOPY
 from .integrators import Derivative, Integrator
 from .interfaces import SISO, PartialState, SVcontrol
 from .math import Add, Add3, Gain
@@ -105,7 +105,7 @@ class LimPID(SVcontrol):
     xd_start = ac.Parameter(0.0, doc="initial or guess value of the derivative's state")
     y_start = ac.Parameter(0.0, doc="initial value of the output")
     strict = ac.Option(False, doc="without effect")
-    homotopyType = ac.Option("Linear", doc="without effect")
+    homotopyType = ac.Option("Linear", choices=LIMITER_HOMOTOPY, doc="without effect")
     u_ff = ac.Input(when="withFeedForward", doc="feed-forward signal")
     controlError = ac.Variable(doc="set point minus measurement")
 

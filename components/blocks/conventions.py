@@ -13,6 +13,11 @@ INIT = ("NoInit", "SteadyState", "InitialState", "InitialOutput")
 """How a block with states starts: the choices of ``initType``, as in `Modelica.Blocks.Types.Init`."""
 
 
+LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
+VARIABLE_LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "Fixed")
+"""The choices of ``homotopyType``, as in `Modelica.Blocks.Types`."""
+
+
 INSTANT = 1e-15
 """Shortest duration [s]: it stands for a duration of zero in a quotient."""
 

@@ -9,7 +9,7 @@ import acausal as ac
 from acausal.components import icons
 
 from .canonical import canonical_form
-from .conventions import INIT
+from .conventions import INIT, LIMITER_HOMOTOPY, VARIABLE_LIMITER_HOMOTOPY
 from .interfaces import SISO, PartialStart
 
 __modelica__ = "Modelica.Blocks.Nonlinear"
@@ -23,7 +23,7 @@ class Limiter(SISO):
     uMax = ac.Parameter(doc="upper limit")
     uMin = ac.Parameter(lambda self: -self.uMax, doc="lower limit")
     strict = ac.Option(False, doc="without effect")
-    homotopyType = ac.Option("Linear", doc="without effect")
+    homotopyType = ac.Option("Linear", choices=LIMITER_HOMOTOPY, doc="without effect")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.maximum(ac.minimum(self.u, self.uMax), self.uMin))
@@ -38,7 +38,7 @@ class VariableLimiter(SISO):
     ICON = icons.marked(icons.LIMITER, "u")
 
     strict = ac.Option(False, doc="without effect")
-    homotopyType = ac.Option("Linear", doc="without effect")
+    homotopyType = ac.Option("Linear", choices=VARIABLE_LIMITER_HOMOTOPY, doc="without effect")
     ySimplified = ac.Option(0.0, doc="without effect")
     limit1 = ac.Input(doc="upper limit")
     limit2 = ac.Input(doc="lower limit")

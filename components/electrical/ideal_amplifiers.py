@@ -6,13 +6,11 @@ from typing import Any
 
 import acausal as ac
 from acausal.components import icons
+from acausal.components.blocks.conventions import LIMITER_HOMOTOPY
 
 from .interfaces import NegativePin, PositivePin, TwoPort
 
 __modelica__ = "Modelica.Electrical.Analog.Ideal"
-
-
-_LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
 
 
 class IdealOpAmp(TwoPort):
@@ -149,7 +147,7 @@ class IdealizedOpAmpLimited(_Limited):
     Vns = ac.Parameter(-15.0, unit="V", doc="negative supply without pins")
     strict = ac.Option(True, doc="without effect")
     homotopyType = ac.Option(
-        "NoHomotopy", choices=_LIMITER_HOMOTOPY, doc="where the output begins, if there is a choice"
+        "NoHomotopy", choices=LIMITER_HOMOTOPY, doc="where the output begins, if there is a choice"
     )
     s_p = PositivePin(when="useSupply")
     s_n = NegativePin(when="useSupply")

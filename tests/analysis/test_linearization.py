@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import translational as tl
+from acausal.components import electrical as el, translational as tl
 from tests.support.counted import compilations
 from tests.support.oscillator import plain
 
@@ -239,3 +239,29 @@ def test_wrong_weights_are_refused(linearized: ac.Linearization) -> None:
         linearized.lqr({"mass.s": 1.0}, {})
     with pytest.raises(ac.DataError, match=r"sensors: 'mass\.s' is -1\.0"):
         linearized.kalman({"mass.v": 1.0}, {"mass.s": -1.0})
+
+
+@pytest.mark.parametrize("closed", [0.0, 1.0])
+def test_a_switch_is_as_its_input_says(closed: float) -> None:
+    circuit = ac.Component()
+    circuit.ground, circuit.source = el.Ground(), el.ConstantVoltage(V=10.0)
+    circuit.switch, circuit.r, circuit.l = (
+        el.IdealClosingSwitch(),
+        el.Resistor(R=10),
+        el.Inductor(L=1),
+    )
+    circuit.connect(circuit.ground.p, circuit.source.n, circuit.l.n)
+    circuit.connect(circuit.source.p, circuit.switch.p)
+    circuit.connect(circuit.switch.n, circuit.r.p)
+    circuit.connect(circuit.r.n, circuit.l.p)
+    system, inputs = ac.compile(circuit), {"switch.control": closed}
+    resistance = 10 + (1e-5 if closed else 1e5)
+    at = ac.linearize(system, {"l.i": 1.0}, inputs, outputs=["l.v"])
+    np.testing.assert_allclose(at.A, [[-resistance]])
+    np.testing.assert_allclose(at.C, [[-resistance]])
+    resting = ac.linearize(system, "steady", inputs)
+    np.testing.assert_allclose(resting.x, [10 / resistance])
+    np.testing.assert_allclose(resting.A, [[-resistance]])
+    given = 0.0, [1.0], [closed], system.parameters()
+    np.testing.assert_allclose(system.vector_field(*given), [10 - resistance])
+    np.testing.assert_allclose(system.observe("l.v", *given), 10 - resistance)

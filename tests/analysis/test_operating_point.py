@@ -1,5 +1,7 @@
 """Operating points: where a model rests."""
 
+from collections.abc import Iterator
+
 import jax
 import numpy as np
 import pytest
@@ -167,3 +169,23 @@ def test_a_model_without_rest_is_told_so() -> None:
     told = r"no rest was found near the start; where the search ended: 'der\(x\) = 0 by 2'\. Does"
     with pytest.raises(ac.InitializationError, match=told):
         ac.operating_point(ac.compile(Integrating()), inputs={"u": 2.0})
+
+
+class Branches(ac.Component):
+    """Two branches, each with a rest of its own, or only the upper one."""
+
+    low = ac.Parameter(-5.0)
+    x = ac.Variable(start=2.0)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.x), ac.where(self.x > 1, 3 - self.x, self.low, events=True))
+
+
+@pytest.mark.parametrize("low", [1.0, -5.0])
+def test_the_rest_is_looked_for_in_the_branch_of_the_start(low: float) -> None:
+    system = ac.compile(Branches(low=low))
+    point = ac.operating_point(system)
+    assert float(point["x"]) == pytest.approx(3, rel=1e-12)
+    np.testing.assert_allclose(ac.linearize(system, point).A, [[-1]])
+    np.testing.assert_allclose(system.vector_field(0.0, [2.0], None, system.parameters()), [1])
+    np.testing.assert_allclose(system.vector_field(0.0, [0.5], None, system.parameters()), [low])

@@ -2,13 +2,14 @@
 
 import json
 import re
+from pathlib import Path
 
 import jax
 import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import electrical as el, neural, translational as tl
+from acausal.components import blocks, digital, electrical as el, neural, translational as tl
 from examples.qvm import model as qvm
 from tests.support.hybrid import Ball, Sampled, Thermostat
 
@@ -250,3 +251,32 @@ def test_names_are_ascii(rumoca, tmp_path):
     assert "der('{U+03C9}') = -'{U+0398}'*'{U+03C9}'" in text
     assert "a.'{U+03C6}' = '{U+03C9}'" in text
     assert not [d for d in rumoca.validate_source(text) if d.level == "error"]
+
+
+def test_values_of_enumerations_have_their_types(tmp_path: Path) -> None:
+    model = ac.Component()
+    model.source, model.limiter = (
+        blocks.Sine(f=1.0),
+        blocks.Limiter(uMax=1.0, homotopyType="NoHomotopy"),
+    )
+    model.amplifier = el.IdealizedOpAmpLimited(homotopyType="UpperLimit")
+    model.ground, model.load = el.Ground(), el.Resistor(R=1e3)
+    model.before, model.after = digital.Set(x="0"), digital.Set(x="'L'")
+    model.gate = digital.And(n=2)
+    model.connect(model.before.y, model.gate.x[0])
+    model.connect(model.after.y, model.gate.x[1])
+    model.connect(model.source.y, model.limiter.u)
+    model.connect(model.ground.p, model.amplifier.in_p, model.amplifier.in_n, model.load.n)
+    model.connect(model.amplifier.out, model.load.p)
+    path = ac.export.modelica(ac.compile(model), tmp_path / "enumerations.mo")
+    text = path.read_text()
+    for value in (
+        "Modelica.Blocks.Types.LimiterHomotopy.NoHomotopy",
+        "Modelica.Blocks.Types.LimiterHomotopy.UpperLimit",
+        "Modelica.Electrical.Digital.Interfaces.Logic.'0'",
+        "Modelica.Electrical.Digital.Interfaces.Logic.'L'",
+    ):
+        assert f"={value}" in text
+    again = ac.load(path)
+    assert (again.before.x, again.after.x) == ("'0'", "'L'")
+    assert again.amplifier.homotopyType == "UpperLimit"

@@ -11,25 +11,33 @@ from acausal.export.modelica_text.spelling import array, number
 from acausal.modeling import Component, Option, Variable
 from acausal.netlist import BARE_CONSTANTS, Writer, installed
 
-TYPES: dict[str, str] = {
-    **dict.fromkeys(("never", "avoid", "default", "prefer", "always"), "StateSelect"),
-    **{
-        value: f"Modelica.Blocks.Types.{kind}"
-        for kind, values in {
-            "Init": "NoInit SteadyState InitialState InitialOutput",
-            "SimpleController": "P PI PD PID",
-            "Smoothness": "LinearSegments ContinuousDerivative ConstantSegments MonotoneContinuousDerivative1 "
-            "MonotoneContinuousDerivative2 ModifiedContinuousDerivative",
-            "Extrapolation": "HoldLastPoint LastTwoPoints Periodic NoExtrapolation",
-            "AnalogFilter": "CriticalDamping Bessel Butterworth ChebyshevI",
-            "FilterType": "LowPass HighPass BandPass BandStop",
-            "Regularization": "Exp Sine Linear CoSine",
-            "TimeEvents": "Always AtDiscontinuities NoTimeEvents",
-        }.items()
-        for value in values.split()
-    },
+TYPES: dict[str, tuple[str, ...]] = {
+    kind: tuple(values.split())
+    for kind, values in {
+        "StateSelect": "never avoid default prefer always",
+        "AssertionLevel": "error warning",
+        "Modelica.Blocks.Types.Init": "NoInit SteadyState InitialState InitialOutput",
+        "Modelica.Blocks.Types.SimpleController": "P PI PD PID",
+        "Modelica.Blocks.Types.Smoothness": "LinearSegments ContinuousDerivative ConstantSegments "
+        "MonotoneContinuousDerivative1 MonotoneContinuousDerivative2 ModifiedContinuousDerivative",
+        "Modelica.Blocks.Types.Extrapolation": "HoldLastPoint LastTwoPoints Periodic NoExtrapolation",
+        "Modelica.Blocks.Types.AnalogFilter": "CriticalDamping Bessel Butterworth ChebyshevI",
+        "Modelica.Blocks.Types.FilterType": "LowPass HighPass BandPass BandStop",
+        "Modelica.Blocks.Types.Regularization": "Exp Sine Linear CoSine",
+        "Modelica.Blocks.Types.TimeEvents": "Always AtDiscontinuities NoTimeEvents",
+        "Modelica.Blocks.Types.LimiterHomotopy": "NoHomotopy Linear UpperLimit LowerLimit",
+        "Modelica.Blocks.Types.VariableLimiterHomotopy": "NoHomotopy Linear Fixed",
+        "Modelica.Electrical.Digital.Interfaces.Logic": "'U' 'X' '0' '1' 'Z' 'W' 'L' 'H' '-'",
+    }.items()
 }
-"""The type of Modelica that has a choice of an option."""
+"""Modelica's enumerations, with their values."""
+
+
+def enumeration(declared: Option, value: str) -> str | None:
+    """Modelica's type of an option with this value: the one with most of its choices."""
+    kinds = [kind for kind, values in TYPES.items() if value in values]
+    choices = {*(declared.choices or ())}
+    return max(kinds, key=lambda kind: len(choices & {*TYPES[kind]}), default=None)
 
 
 def standard_part(model: Component, name: str) -> tuple[str, Flat] | None:
@@ -94,7 +102,7 @@ def _text(value: Any, declared: Any) -> str:
             return number(value)
         case list():
             return array(value, lambda v: _text(v, declared))
-        case str() if isinstance(declared, Option) and value in TYPES:
-            return f"{TYPES[value]}.{value}"
+        case str() if isinstance(declared, Option) and (kind := enumeration(declared, value)):
+            return f"{kind}.{value}"
         case _:
             return str(value)

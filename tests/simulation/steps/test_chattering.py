@@ -10,6 +10,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks, electrical as el
 from tests.gradients.models import Built, at
+from tests.support.hybrid import Ball
 
 
 def boost() -> ac.Component:
@@ -114,3 +115,13 @@ def test_a_circle_of_rounding_ends_and_one_of_numbers_does_not() -> None:
     np.testing.assert_allclose(ac.simulate(system, 2)["x"][-1], 2, atol=1e-6)
     with pytest.raises(ac.SimulationError, match="without end"):
         ac.simulate(system, 2, params={"rounding": 1e-6})
+
+
+def test_a_ball_that_comes_to_rest_does_not_fall_through_the_floor() -> None:
+    system = ac.compile(Ball())
+    for e in (0.8, 0.5, 0.4, 0.3, 0.05):
+        with pytest.raises(ac.SimulationError, match="follow each other without end"):
+            ac.simulate(system, 6.0, params={"e": e})
+    with pytest.warns(UserWarning, match="2 of 3 variants went on behind events"):
+        runs = ac.sweep(system, {"e": [0.95, 0.5, 0.3]}, 5.0)
+    assert float(runs["h"][0].min()) > -1e-9
