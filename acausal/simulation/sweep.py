@@ -366,16 +366,16 @@ def _warn_of_broken(runs: Solution, columns: Mapping[str, Float[np.ndarray, " n"
     if runs.log is not None:
         logs = (jax.tree.map(lambda a, k=k: a[k], runs.log) for k in range(len(broken)))
         endless |= [log.without_end(span) is not None for log in logs]
-    for which, why in (
-        (broken, "did not reach the end: their values are not finite"),
-        (endless, "went on behind events that follow each other without end"),
+    for which, what, why in (
+        (broken, "did not reach the end", "their values are not finite"),
+        (endless, "went on behind events without end", "they slide or bounce for ever"),
     ):
         if which.any():
             first = int(np.argmax(which))
             where = ", ".join(f"{name} = {column[first]:g}" for name, column in columns.items())
             warn(
-                f"{np.sum(which)} of {which.size} variants {why}, the first with {where}. Simulate that one alone to "
-                "see why."
+                f"{np.sum(which)} of {which.size} variants {what}, the first with {where}: {why}. Simulate that one "
+                "alone to see why."
             )
 
 

@@ -261,7 +261,7 @@ def test_values_of_enumerations_have_their_types(tmp_path: Path) -> None:
     )
     model.amplifier = el.IdealizedOpAmpLimited(homotopyType="UpperLimit")
     model.ground, model.load = el.Ground(), el.Resistor(R=1e3)
-    model.before, model.after = digital.Set(x="0"), digital.Set(x="'L'")
+    model.before, model.after = digital.Set(x="'0'"), digital.Set(x="'L'")
     model.gate = digital.And(n=2)
     model.connect(model.before.y, model.gate.x[0])
     model.connect(model.after.y, model.gate.x[1])
