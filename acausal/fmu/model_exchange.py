@@ -183,28 +183,44 @@ class Evaluated(Computed):
         time = max(event.time, due) if event.timed and due < NEVER else event.time
         states, inputs = (np.frombuffer(b).copy() for b in (event.states, event.inputs))
         wanted = np.frombuffer(event.signs) > 0.5
-        values = np.zeros(self.part.n_values)
-        shift, start, shifts, rates = FIRST_SHIFT * max(1.0, abs(time)), time, 0, states
-        instance.move(time, states.ctypes.data, inputs.ctypes.data)
-        while len(wanted) and shifts < MOST_SHIFTS:
-            instance.read(values.ctypes.data)
-            if ((values[-len(wanted) :] > 0) == wanted).all():
-                break
-            rates = values[: len(states)].copy() if shifts == 0 else rates
-            shifted = states + shift * rates
-            instance.move(start + shift, shifted.ctypes.data, inputs.ctypes.data)
-            shift, shifts = 2 * shift, shifts + 1
-        else:
-            if shifts:
-                instance.move(time, states.ctypes.data, inputs.ctypes.data)
+        shifts = self._shift(instance, time, states, inputs, wanted)
         found = instance.happen(time, inputs.ctypes.data)
         if found.jumped:
             instance.states(states.ctypes.data)
-        signs = b""
-        if len(wanted):
-            instance.read(values.ctypes.data)
-            signs = (values[-len(wanted) :] > 0).astype(float).tobytes()
+        signs = self._signs(instance, len(wanted))[0].astype(float).tobytes()
         return AfterEvent(0, _limited(found), states.tobytes(), shifts, signs)
+
+    def _shift(
+        self, instance: Exchange, time: float, states: Numbers, inputs: Numbers, wanted: Numbers
+    ) -> int:
+        """Move an instance to an event, or a little beyond until its indicators have the signs; how often it was moved.
+
+        What they wait for may be the time, a state, or an input: which way one moves is not known, so both are tried.
+        """
+        instance.move(time, states.ctypes.data, inputs.ctypes.data)
+        signs, rates = self._signs(instance, len(wanted))
+        if (signs == wanted).all():
+            return 0
+        sizes = np.diag(np.maximum(abs(inputs), 1.0))
+        ways = [np.zeros_like(inputs), *sizes, *-sizes]
+        for shifts in range(1, MOST_SHIFTS + 1):
+            shift = FIRST_SHIFT * 2 ** (shifts - 1)
+            later = shift * max(1.0, abs(time))
+            moved = states + later * rates
+            for way in ways:
+                given = inputs + shift * way
+                instance.move(time + later, moved.ctypes.data, given.ctypes.data)
+                if (self._signs(instance, len(wanted))[0] == wanted).all():
+                    return shifts
+        instance.move(time, states.ctypes.data, inputs.ctypes.data)
+        return MOST_SHIFTS
+
+    def _signs(self, instance: Exchange, n: int) -> tuple[Numbers, Numbers]:
+        """Which indicators are positive, and the rates of the states."""
+        values = np.zeros(self.part.n_values)
+        if n:
+            instance.read(values.ctypes.data)
+        return values[len(values) - n :] > 0, values[: self.part.n]
 
     # -- functions ---------------------------------------------------------------------------------
 

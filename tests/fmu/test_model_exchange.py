@@ -85,6 +85,19 @@ class Sticking(ac.Component):
         self.connect(self.mass.flange_b, self.ground.flange_a)
 
 
+class Pushed(ac.Component):
+    """A mass on rough ground that a force pushes until it breaks away."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.wall, self.spring = tl.Fixed(), tl.SpringDamper(c=100.0, d=1.0)
+        self.mass, self.push = tl.Mass(m=1.0), tl.Force()
+        self.ground = tl.SupportFriction(f_pos=[[0.0, 2.0], [1.0, 3.0]], peak=1.3)
+        self.connect(self.wall.flange, self.spring.flange_a)
+        self.connect(self.spring.flange_b, self.mass.flange_a, self.ground.flange_a)
+        self.connect(self.mass.flange_b, self.push.flange)
+
+
 class Driven(ac.Component):
     """A source, an FMU, and a state that integrates its output."""
 
@@ -321,6 +334,21 @@ def test_indicators_whose_meaning_changes_with_the_mode_are_no_further_events(
     expected, found = (ac.simulate(s, 2.0, rtol=1e-8, atol=1e-10) for s in (native, system))
     np.testing.assert_allclose(found["mass.s"][-1], expected["mass.s"][-1], atol=1e-9)
     assert len(found.events) <= len(expected.events) + 1
+
+
+@pytest.mark.slow
+@pytest.mark.cases(fast=1)
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
+def test_an_event_that_an_input_makes_happens_in_the_fmu(exported: Exported, fmi: str) -> None:
+    """At the instant the force is as great as what holds the mass, but for rounding."""
+    native, system = ac.compile(Pushed()), ac.compile(ac.FMU(exported(Pushed, fmi)))
+    t = np.arange(0, 1.001, 0.01)
+    inputs = {"push.f": (t, 12 * np.sin(3 * t) + 5 * np.sin(8 * t))}
+    for end in (t[-1], 0.4, 0.7):  # where steps end differs with it, by rounding
+        expected, found = (ac.simulate(s, end, inputs=inputs) for s in (native, system))
+        assert len(found.events) == len(expected.events)
+        assert float(found["mass.s"][-1]) == pytest.approx(float(expected["mass.s"][-1]), rel=1e-6)
+    assert float(expected["mass.s"][-1]) > 0.04
 
 
 @pytest.mark.slow
