@@ -77,7 +77,11 @@ class Entry:
         """Name, unit, default and meaning of what can be set."""
         found: dict[str, acausal.modeling.Declaration] = {}
         for base in reversed(self.cls.__mro__):
-            found |= {n: d for n, d in vars(base).items() if isinstance(d, SET)}
+            for name, value in vars(base).items():
+                if isinstance(value, SET):
+                    found[name] = value
+                else:
+                    found.pop(name, None)  # it follows from others
         return [
             (name, declared.unit, _shown(getattr(declared, "default", None)), declared.doc)
             for name, declared in found.items()

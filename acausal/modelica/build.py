@@ -36,7 +36,17 @@ from acausal.modelica.types import Type, is_component, type_of_declared
 from acausal.modelica.values import ABSENT, FoundOnce, Record, as_array, of
 from acausal.modelica.variables import declare, sizes_of
 from acausal.modelica.views import Entry
-from acausal.modeling import Component, Connector, Reference, charge, element_name
+from acausal.modeling import (
+    Component,
+    Connector,
+    Discrete,
+    DiscreteOutput,
+    Output,
+    Reference,
+    Variable,
+    charge,
+    element_name,
+)
 
 MAX_DEPTH = 60
 
@@ -147,8 +157,20 @@ def class_of(node: ClassNode) -> type[ModelicaModel]:
             and b not in natives[:i]
         ]
         attributes = {"_class": node, "__module__": __name__, "__doc__": node.definition.comment}
+        attributes |= _discrete_outputs(node, bases)
         node.python = type(node.definition.name, (ModelicaModel, *bases), attributes)
     return node.python
+
+
+def _discrete_outputs(node: ClassNode, bases: list[type[Component]]) -> dict[str, Variable]:
+    """The outputs that a class has of classes of libraries, and that its ``when`` gives values."""
+    found: dict[str, Variable] = {}
+    for name in statements.assigned_at_events(node):
+        declared = next((b._declared[name] for b in bases if name in b._declared), None)
+        if isinstance(declared, Output) and not isinstance(declared, Discrete):
+            kept = {key: getattr(declared, key) for key in ("unit", "shape", "when", "doc")}
+            found[name] = DiscreteOutput(**kept)
+    return found
 
 
 class Build:

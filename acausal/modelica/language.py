@@ -297,7 +297,9 @@ def _cardinality(self: Evaluator, call: FunctionCall) -> Any:
 
 def _norm(self: Evaluator, call: FunctionCall) -> Any:
     """The Euclidean norm of a vector."""
-    (vector,) = self.arguments(call, 1)
+    vector, *order = self.arguments(call, 1, 2)
+    if order and order[0] != 2:
+        raise self.wrong("norm(v, p) is known for p=2 only")
     squares = reduce(lambda a, v: self.arithmetic("+", a, self.arithmetic("*", v, v)), vector, 0)
     return self.arithmetic("^", squares, 0.5)
 

@@ -202,9 +202,8 @@ def _jumps(side: Any) -> bool:
     return isinstance(side, Previous) or is_discrete(side)
 
 
-def assigned_at_events(build: Any) -> frozenset[str]:
+def assigned_at_events(node: Any) -> frozenset[str]:
     """The variables of a class that ``when`` gives values."""
-    node = build.node
     if "at_events" not in node.__dict__:
         found: set[str] = set()
         for _, stated, _ in node.view().sections:

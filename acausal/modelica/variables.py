@@ -131,7 +131,7 @@ def _variable(
     jumps = (
         kind != "real"
         or prefixes.variability == "discrete"
-        or name in statements.assigned_at_events(build)
+        or name in statements.assigned_at_events(build.node)
     ) and not (fed and causality == "output")
     if causality == "input" and mod.value is None:
         return Input(kind=kind, **given)

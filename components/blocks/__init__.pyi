@@ -522,8 +522,12 @@ class MI2MO(ac.Component):
     def __init__(self, **modifiers: Any) -> None: ...
 
 class MIMO(ac.Component):
-    """``nin`` inputs ``u``, ``nout`` outputs ``y``; a subclass says how many."""
+    """``nin`` inputs ``u``, ``nout`` outputs ``y``."""
 
+    nin: ClassVar[ac.Option]
+    """number of inputs"""
+    nout: ClassVar[ac.Option]
+    """number of outputs"""
     u: ClassVar[ac.Input]
     """input signals"""
     y: ClassVar[ac.Output]
@@ -553,8 +557,10 @@ class MISO(ac.Component):
     def __init__(self, **modifiers: Any) -> None: ...
 
 class MO(ac.Component):
-    """``nout`` outputs ``y``; a subclass says how many."""
+    """``nout`` outputs ``y``."""
 
+    nout: ClassVar[ac.Option]
+    """number of outputs"""
     y: ClassVar[ac.Output]
     """output signals"""
     def __init__(self, **modifiers: Any) -> None: ...
@@ -1605,7 +1611,7 @@ class LimPID(SVcontrol):
         withFeedForward: bool = ...,
         initType: Literal["NoInit", "SteadyState", "InitialState", "InitialOutput"] = ...,
         strict: bool = ...,
-        homotopyType: Any = ...,
+        homotopyType: Literal["NoHomotopy", "Linear", "UpperLimit", "LowerLimit"] = ...,
         u_s: ac.Start | Mapping[str, Any] = ...,
         u_m: ac.Start | Mapping[str, Any] = ...,
         u_ff: ac.Start | Mapping[str, Any] = ...,
@@ -1631,7 +1637,7 @@ class Limiter(SISO):
         uMax: SupportsFloat | ac.Start = ...,
         uMin: SupportsFloat | ac.Start = ...,
         strict: bool = ...,
-        homotopyType: Any = ...,
+        homotopyType: Literal["NoHomotopy", "Linear", "UpperLimit", "LowerLimit"] = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
@@ -2452,7 +2458,7 @@ class VariableLimiter(SISO):
         self,
         *,
         strict: bool = ...,
-        homotopyType: Any = ...,
+        homotopyType: Literal["NoHomotopy", "Linear", "Fixed"] = ...,
         ySimplified: Any = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         limit1: ac.Start | Mapping[str, Any] = ...,

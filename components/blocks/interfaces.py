@@ -54,14 +54,17 @@ class MISO(ac.Component):
 
 
 class MO(ac.Component):
-    """``nout`` outputs ``y``; a subclass says how many."""
+    """``nout`` outputs ``y``."""
 
+    nout = ac.Option(1, doc="number of outputs")
     y = ac.Output(shape="nout", doc="output signals")
 
 
 class MIMO(ac.Component):
-    """``nin`` inputs ``u``, ``nout`` outputs ``y``; a subclass says how many."""
+    """``nin`` inputs ``u``, ``nout`` outputs ``y``."""
 
+    nin = ac.Option(1, doc="number of inputs")
+    nout = ac.Option(1, doc="number of outputs")
     u = ac.Input(shape="nin", doc="input signals")
     y = ac.Output(shape="nout", doc="output signals")
 

@@ -1118,9 +1118,9 @@ class IdealOpAmpLimited(ac.Component):
     in_n: Pin
     out: Pin
     mode: ClassVar[ac.Discrete]
-    """1 at the upper limit, -1 at the lower, 0 between; 2 and -2 while leaving a limit is tried"""
+    """1 at the upper limit, -1 at the lower limit, 0 between, 2 or -2 while it is tried to leave one"""
     pull: ClassVar[ac.Discrete]
-    """how much the input asks for a higher output, before the last event"""
+    """at a limit, how much the input asked for a higher output at the last event"""
     push: ClassVar[ac.Variable]
     """while leaving is tried: above zero if it leads to the middle"""
     VMax: Pin
@@ -1182,9 +1182,9 @@ class IdealizedOpAmpLimited(ac.Component):
     in_n: Pin
     out: Pin
     mode: ClassVar[ac.Discrete]
-    """1 at the upper limit, -1 at the lower, 0 between; 2 and -2 while leaving a limit is tried"""
+    """1 at the upper limit, -1 at the lower limit, 0 between, 2 or -2 while it is tried to leave one"""
     pull: ClassVar[ac.Discrete]
-    """how much the input asks for a higher output, before the last event"""
+    """at a limit, how much the input asked for a higher output at the last event"""
     push: ClassVar[ac.Variable]
     """while leaving is tried: above zero if it leads to the middle"""
     V0: ClassVar[ac.Parameter]

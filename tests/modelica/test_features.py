@@ -288,3 +288,33 @@ def test_an_algorithm_that_chooses_again_and_again_stays_small(tmp_path: Path) -
 
     run = ac.simulate(ac.compile(ac.load(file)), 1, saveat=[0.0, 1.0])
     assert run["n"].tolist() == [chosen(0), chosen(3)]
+
+
+def test_outputs_of_the_librarys_interfaces_may_change_at_events(tmp_path: Path) -> None:
+    path = tmp_path / "sampled.mo"
+    path.write_text(
+        """package Sampled
+          block Hold extends Modelica.Blocks.Interfaces.SISO;
+            equation when sample(0, 0.1) then y = 2*u; end when; end Hold;
+          block Steps extends Modelica.Blocks.Interfaces.SO(y(start = 3)); input Real u;
+            equation when u > 0.5 then y = pre(y) + u; elsewhen u > 0.8 then y = 10; end when; end Steps;
+          block Count extends Modelica.Blocks.Interfaces.MO(nout = 2);
+            algorithm when sample(0.15, 0.1) then y[1] := time; y[2] := pre(y[2]) + 1; end when; end Count;
+          block Mix extends Modelica.Blocks.Interfaces.MIMO(nin = 2, nout = 3);
+            equation y[1] = u[1] + u[2]; y[2] = u[1] - u[2]; y[3] = Modelica.Math.Vectors.norm(u, 2); end Mix;
+          model All
+            Hold hold(u = time); Steps steps(u = time); Count count; Mix mix(u = {3*time, 4*time});
+            Real x(start = 0, fixed = true);
+          equation
+            der(x) = hold.y;
+          end All;
+        end Sampled;"""
+    )
+    end = ac.simulate(ac.compile(ac.load(path, "Sampled.All")), 1.0)
+    wanted = {
+        "x": 2 * 0.1 * sum(0.1 * k for k in range(10)),
+        "steps.y": 10, "count.y[1]": 0.95, "count.y[2]": 9, "mix.y[1]": 7, "mix.y[2]": -1, "mix.y[3]": 5,
+    }  # fmt: skip
+    assert {name: float(end[name][-1]) for name in wanted} == pytest.approx(wanted)
+    at = ac.simulate(ac.compile(ac.load(path, "Sampled.All")), 0.7)
+    assert float(at["steps.y"][-1]) == pytest.approx(3.5)

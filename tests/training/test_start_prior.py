@@ -108,3 +108,34 @@ def test_nothing_is_demanded_of_a_position_on_which_nothing_depends(given: dict[
         **QUIET,
     )
     assert fit.params["damper.d"] == pytest.approx(1.0, rel=1e-3)
+
+
+class Lag(ac.Component):
+    """A lag, and one behind it that is not measured."""
+
+    K, T = ac.Parameter(1.0, min=0), ac.Parameter(1.0, min=0, unit="s")
+    u = ac.Input()
+    x, z = ac.Variable(), ac.Variable(start=1.0)
+
+    def equations(self):
+        yield ac.Eq(self.T * ac.der(self.x), self.K * self.u + self.z - self.x)
+        yield ac.Eq(5 * self.T * ac.der(self.z), -self.z)
+
+
+def test_a_start_far_from_what_it_was_taken_to_be_is_told() -> None:
+    system, t = ac.compile(Lag()), np.linspace(0, 3, 61)
+    truth = ac.simulate(system, 3.0, saveat=t, inputs={"u": 1.0}, x0={"x": 0.0, "z": 6.0})
+    noise = 0.01 * np.random.default_rng(0).standard_normal(61)
+    data = ac.Data(t, {"u": np.ones(61), "x": np.asarray(truth["x"]) + noise})
+    fit = ac.fit(system, data, ["x"], modifiers=["K", "T"], **QUIET)
+    assert "'z' was found to start" in str(fit)
+    assert "(x0='fit')" in str(fit)
+    known = ac.fit(system, data, ["x"], modifiers=["K", "T"], x0={"x": 0.0, "z": 6.0}, **QUIET)
+    assert "found to start" not in str(known)
+
+
+def test_as_many_samples_as_numbers_are_no_proof() -> None:
+    t = np.array([0.0, 1.0, 3.0])
+    data = ac.Data(t, {"u": np.ones(3), "x": np.array([0.0, 1.3, 2.1])})
+    fit = ac.fit(ac.compile(Lag()), data, ["x"], modifiers=["K", "T"], **QUIET)
+    assert "3 samples are explained by as many numbers" in str(fit)

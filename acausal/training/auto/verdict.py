@@ -34,6 +34,9 @@ NEAR, STILL = 0.01, 0.9
 """An argument of a law hardly changes where more than the second part of its values are within the first part of its
 range about their median."""
 
+FAR_START = 2.0
+"""A start that is found further off than so many standard deviations of its prior contradicts it."""
+
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
 
@@ -90,7 +93,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"does not explain the record: it leaves {percent(share)} of the targets, "
             f"the noise is {percent(noise / level)}."
         )
-    loose = list(_hardly_determined(fit)) if good else []
+    loose = [*_all_taken(problem), *_far_starts(fit), *(_hardly_determined(fit) if good else ())]
     good = good and not loose and (share <= SMALL or not left)
     suspect = list(outliers(problem, simulated))
     others = [*suspect, *at_limits(problem, simulated), *loose, *left]
@@ -141,6 +144,37 @@ def explains(problem: Problem, loss: float, noise: float) -> bool:
         return True
     small = loss <= SMALL * np.sqrt(len(problem.targets))
     return bool(np.isfinite(loss) and (loss <= DOWN_TO * noise or small))
+
+
+def _all_taken(problem: Problem) -> Iterator[str]:
+    """Whether there are as many numbers to be found as samples."""
+    starts, states = problem.start_prior, problem.system.states
+    found = len(problem.modifiers.names) + len(problem.per_record.names) * problem.records.count
+    found += 0 if starts is None else int((np.asarray(starts.scale) > 0).sum())
+    # what is measured first and taken as the start is explained in any case
+    seen = np.isfinite(np.asarray(problem.first_states.given)) & np.isin(states, problem.targets)
+    found += int((seen & (True if starts is None else np.asarray(starts.scale) == 0)).sum())
+    samples = int((np.asarray(problem.records.weight) > 0).sum())
+    if not problem.networks and samples <= found:
+        yield (
+            f"{samples} samples are explained by as many numbers that were found, starts included: nothing is left to "
+            "tell the noise by, and deviations mean nothing. Measure more."
+        )
+
+
+def _far_starts(fit: TrainedModel) -> Iterator[str]:
+    """Starts that were found further off than they were taken to be."""
+    prior, moves = fit.problem.start_prior, fit.trained.starts
+    if prior is None or moves is None:
+        return
+    unmeasured = np.isnan(np.asarray(fit.problem.first_states.given))
+    far = np.where(unmeasured, np.abs(np.asarray(moves)), 0.0).max(axis=0)
+    for i in np.flatnonzero(far > FAR_START):
+        name = fit.system.states[i]
+        yield (
+            f"'{name}' was found to start {far[i]:.2g} times as far from the model's start as it was taken to lie, "
+            "which holds other numbers back: give its start (x0={...}), or leave it open (x0='fit')."
+        )
 
 
 def _hardly_determined(fit: TrainedModel) -> Iterator[str]:
