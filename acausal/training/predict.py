@@ -193,10 +193,12 @@ def _warn_of_steps(
 ) -> None:
     i = int(np.argmax(change / noise))
     name = fit.problem.targets[i]
+    is_auto = fit.settings.get("strategy") == "auto"
+    chosen = "" if is_auto else ", or by strategy='auto', which chooses them"
     warn(
         f"predict: steps of half the length change '{name}' by up to {change[i]:.3g} {fit.system.unit(name)}, and by "
         f"{of_fit[i]:.3g} in the records of the fit; the noise is {noise[i]:.2g}. The fit's steps are too long: fit "
-        "with a smaller dt=, or by strategy='auto', which chooses them."
+        f"with a smaller dt={chosen}."
     )
 
 

@@ -66,7 +66,8 @@ class RecordFit:
 def rms_of(records: Iterable[RecordFit]) -> dict[str, float]:
     """By target, the root mean square error over records in the target's unit; NaN for one that is not measured."""
     every = list(records)
-    squares = np.concatenate([record.errors for record in every]) ** 2
+    with np.errstate(over="ignore"):  # of a prediction that diverges
+        squares = np.concatenate([record.errors for record in every]) ** 2
     counts = (~np.isnan(squares)).sum(axis=0)
     means = np.nansum(squares, axis=0) / np.where(counts > 0, counts, np.nan)
     return dict(zip(every[0].targets, np.sqrt(means).tolist(), strict=True))

@@ -133,7 +133,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     if fit.not_laws:
         names = ", ".join(fit.not_laws)
         others.append(
-            f"{names}: a module of your own, trained from where it was, with your scales."
+            f"{names}: trained from where it was, as its scales do not follow from the data: see that what goes in and "
+            "comes out is of the size 1 (of neural elements: input_scale=, output_scale=)."
         )
     return Verdict(good, fit.loss, noise, (first, *others, *_ranges(fit)))
 
