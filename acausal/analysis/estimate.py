@@ -39,6 +39,7 @@ from acausal.analysis.tracking import (
     make_model,
     numbers_by_name,
     rows_of,
+    to_estimate,
 )
 from acausal.codegen import Packed, Values
 from acausal.data import Data, Record, noise_level
@@ -148,8 +149,7 @@ def estimate(
         raise DataError("The record has fewer than two samples.")
     known = _sensors(system, data, sensors)
     r = jnp.stack([jnp.asarray(v, float) for v in known.values()])
-    kind = "a parameter of the model"
-    drift = numbers_by_name(parameters, system.layout.names, "parameters", kind)
+    drift = to_estimate(system, parameters)
     names = (*system.states, *drift)
     path, measured, first = _lay_out(system, data, known, tuple(drift), x0, params, dt, solver)
     size = _sizes(path, first, measured)

@@ -16,7 +16,13 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import check_time, is_number, is_real
 from acausal.analysis.estimate import belief_at, filter_for
 from acausal.analysis.filtering import Belief, Linearized, Measured
-from acausal.analysis.tracking import LONGER, TrackedModel, make_model, numbers_by_name
+from acausal.analysis.tracking import (
+    LONGER,
+    TrackedModel,
+    make_model,
+    numbers_by_name,
+    to_estimate,
+)
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, shown
 from acausal.modeling import ByName, by_name
@@ -310,8 +316,7 @@ def observer(
     known = numbers_by_name(sensors, computed, "sensors", "a variable that the model computes")
     if not known:
         raise DataError("sensors={} measure nothing; name at least one, with its noise.")
-    kind = "a parameter of the model"
-    drift = numbers_by_name(parameters, system.layout.names, "parameters", kind)
+    drift = to_estimate(system, parameters)
     order = (*system.states, *drift)
     walks = numbers_by_name(noise, order, "noise", "a state, nor a parameter to estimate")
     given = numbers_by_name(states, system.states, "states", "a state of the model")

@@ -271,6 +271,14 @@ def numbers_by_name(
     return found
 
 
+def to_estimate(system: System, given: Any) -> dict[str, Any]:
+    """Parameters to estimate, with the deviations of what is known of them; errors as of `numbers_by_name`."""
+    for name in by_name(given, "parameters", "deviations by name"):
+        if reason := system.layout.why_not_free(name):
+            raise DataError(f"parameters: {reason}.")
+    return numbers_by_name(given, system.layout.names, "parameters", "a parameter of the model")
+
+
 def parts_of_steps(system: System, at: Values, h: float) -> int | None:
     """Into how many parts a step of length h is divided so that it is accurate; ``None`` for implicit steps."""
     point = known(at)
