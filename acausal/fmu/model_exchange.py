@@ -9,6 +9,7 @@ from contextlib import suppress
 from typing import Any
 
 import numpy as np
+from jaxtyping import Bool
 
 from acausal.errors import warn
 from acausal.fmu.computed import Computed
@@ -191,7 +192,12 @@ class Evaluated(Computed):
         return AfterEvent(0, _limited(found), states.tobytes(), shifts, signs)
 
     def _shift(
-        self, instance: Exchange, time: float, states: Numbers, inputs: Numbers, wanted: Numbers
+        self,
+        instance: Exchange,
+        time: float,
+        states: Numbers,
+        inputs: Numbers,
+        wanted: Bool[np.ndarray, " n"],
     ) -> int:
         """Move an instance to an event, or a little beyond until its indicators have the signs; how often it was moved.
 
@@ -215,7 +221,7 @@ class Evaluated(Computed):
         instance.move(time, states.ctypes.data, inputs.ctypes.data)
         return MOST_SHIFTS
 
-    def _signs(self, instance: Exchange, n: int) -> tuple[Numbers, Numbers]:
+    def _signs(self, instance: Exchange, n: int) -> tuple[Bool[np.ndarray, " n"], Numbers]:
         """Which indicators are positive, and the rates of the states."""
         values = np.zeros(self.part.n_values)
         if n:
