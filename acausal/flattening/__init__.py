@@ -34,6 +34,7 @@ from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,
 )
+from acausal.flattening.silent import discrete_side as discrete_side
 from acausal.flattening.sums import Statement as Statement
 from acausal.flattening.template import (
     Integers as Integers,

@@ -177,9 +177,18 @@ class InitializationSolver(LeavesCaches):
 
 def _least_change(scale: np.ndarray, residual: Callable[[Array], Array], guess: Array) -> Array:
     """Newton's method with the smallest steps: a root near the guess even if there are many."""
-    problem = Dense(lambda x: (x, residual(x)), _smallest)
+    problem = Dense(lambda x: (x, residual(x)), _smallest_across)
     found, *_ = root(problem, guess, jnp.asarray(scale), MAX_STEPS)
     return found
+
+
+def _smallest_across(
+    bordered: Float[Array, "k+1 m"], r: Float[Array, " k+1"]
+) -> Float[Array, " m"]:
+    """The same at right angles to the last row, which holds in any case: others may contradict each other."""
+    rows, across = bordered[:-1], bordered[-1]
+    rows = rows - (rows @ across)[:, None] * across / (across @ across)
+    return _smallest(rows, r[:-1])
 
 
 def _smallest(jacobian: Float[Array, "k m"], r: Float[Array, " k"]) -> Float[Array, " m"]:

@@ -15,11 +15,12 @@ U, X, ZERO, ONE = (LOGIC.index(value) + 1 for value in ("'U'", "'X'", "'0'", "'1
 
 
 def signal(value: str) -> int:
-    """The number of a value of `LOGIC`.
+    """The number of a value of `LOGIC`, with or without its quotes.
 
     Raises:
         DeclarationError: for what is none.
     """
+    value = value if value in LOGIC else f"'{value}'"
     if value not in LOGIC:
         raise ac.DeclarationError(f"{value!r} is not one of {', '.join(LOGIC)}")
     return LOGIC.index(value) + 1

@@ -280,3 +280,18 @@ def test_values_of_enumerations_have_their_types(tmp_path: Path) -> None:
     again = ac.load(path)
     assert (again.before.x, again.after.x) == ("'0'", "'L'")
     assert again.amplifier.homotopyType == "UpperLimit"
+
+
+@pytest.mark.parametrize(
+    "declared", ["Integer n(start = 3, fixed = true)", "discrete Real n(start = 3)"]
+)
+def test_a_rate_that_is_a_discrete_variable_gives_the_state(tmp_path: Path, declared: str) -> None:
+    (tmp_path / "counted.mo").write_text(
+        f"""model Counted {declared}; Real x(start = 0, fixed = true);
+        equation when sample(0.5, 0.5) then n = pre(n) + 1; end when; der(x) = n; end Counted;"""
+    )
+    system = ac.compile(ac.load(tmp_path / "counted.mo"))
+    written = ac.export.modelica(system, tmp_path / "written.mo")
+    assert "der(x) = n;" in written.read_text()
+    again = ac.simulate(ac.compile(ac.load(written)), 2.2)
+    assert float(again["x"][-1]) == pytest.approx(0.5 * (3 + 4 + 5 + 6) + 0.2 * 7)

@@ -503,3 +503,25 @@ def test_a_state_can_be_given_by_another_name():
     assert system.initialize(x0={alias: 2.0}).roles == ("given",)
     with pytest.raises(ac.DataError, match="are the same; give one of them"):
         system.initial_state(x0={"x": 2.0, "other": -2.0})
+
+
+class Determined(ac.Component):
+    """A parameter that follows from two conditions, which contradict each other where both begin at zero."""
+
+    p = ac.Parameter(1.0)
+    x, y = ac.Variable(), ac.Variable()
+
+    def equations(self):
+        yield Eq(der(self.x), self.y**2 - self.x)
+        yield Eq(der(self.y), -0.1 * self.p * self.y)
+
+    def initial_equations(self):
+        yield Eq(der(self.x), 0)
+        yield Eq(self.y, 2)
+        yield Eq(self.p * self.y, 6)
+
+
+@pytest.mark.parametrize("guess", [0.0, 1.0, 10.0])
+def test_conditions_that_contradict_each_other_at_the_starts_alone_are_met(guess: float) -> None:
+    found = ac.compile(Determined(p=Start(guess, fixed=False))).initialize()
+    assert {n: float(found[n]) for n in ("x", "y", "p")} == pytest.approx({"x": 4, "y": 2, "p": 3})

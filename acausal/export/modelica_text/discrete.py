@@ -14,6 +14,7 @@ from typing import Any
 import sympy as sp
 
 from acausal.errors import ModelError
+from acausal.flattening import discrete_side
 from acausal.modeling import (
     HALF,
     INITIAL,
@@ -81,14 +82,17 @@ def stated(equations: Sequence[Any], label: str) -> Iterator[Any]:
     Raises:
         ModelError: for a discrete variable that takes the value of a continuous one at events of other components.
     """
-    whole = [e for e in equations if isinstance(e, Eq) and is_discrete(e.lhs, "int", "bool")]
+    given = {e: e.lhs for e in equations if isinstance(e, Eq) and discrete_side(e) is e.lhs}
+    whole = [e for e, variable in given.items() if is_discrete(variable, "int", "bool")]
     circles = _circles(whole)
     changes = [sp.Gt(INITIAL, HALF), *(change(e.lhs) for e in whole)]
     for equation in equations:
         if equation in whole:
             yield Eq(equation.lhs, equation.rhs.xreplace(circles.get(equation.lhs, {})))
-        elif isinstance(equation, Eq) and is_discrete(equation.lhs, "real"):
+        elif equation in given and is_discrete(equation.lhs, "real"):
             yield _assigned(equation, changes, label)
+        elif isinstance(equation, Eq) and is_discrete(equation.lhs):
+            yield Eq(equation.rhs, equation.lhs)  # it gives something else, such as a derivative
         else:
             yield equation
 
