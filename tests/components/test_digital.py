@@ -242,10 +242,11 @@ def test_every_class_says_what_it_is() -> None:
 
 def test_an_unknown_value_is_refused() -> None:
     with pytest.raises(ac.DeclarationError, match="not one of"):
-        signal("1")
+        signal("2")
     with pytest.raises(ac.DeclarationError, match="pulse"):
-        dg.Pulse(pulse="1")
-    assert [signal(v) for v in LOGIC] == list(range(1, 10))
+        dg.Pulse(pulse="2")
+    assert [signal(v) for v in LOGIC] == [signal(v[1]) for v in LOGIC] == list(range(1, 10))
+    assert dg.Pulse(pulse="1").pulse == "'1'"
 
 
 def test_a_file_names_values_as_modelica_does(tmp_path: Path) -> None:
