@@ -295,3 +295,25 @@ def test_a_rate_that_is_a_discrete_variable_gives_the_state(tmp_path: Path, decl
     assert "der(x) = n;" in written.read_text()
     again = ac.simulate(ac.compile(ac.load(written)), 2.2)
     assert float(again["x"][-1]) == pytest.approx(0.5 * (3 + 4 + 5 + 6) + 0.2 * 7)
+
+
+def test_signals_of_an_expandable_connector_are_connected_by_their_names(tmp_path: Path) -> None:
+    (tmp_path / "bus.mo").write_text(
+        """package Buses
+          expandable connector Bus end Bus;
+          model Send Bus bus; Modelica.Blocks.Sources.Sine o(f = 0.3); equation connect(o.y, bus.sig); end Send;
+          model Receive
+            Bus bus; Modelica.Blocks.Continuous.FirstOrder f(T = 1, y(start = 0, fixed = true));
+          equation
+            connect(bus.sig, f.u);
+          end Receive;
+          model All Send s; Receive r; equation connect(s.bus, r.bus); end All;
+        end Buses;"""
+    )
+    system = ac.compile(ac.load(tmp_path / "bus.mo", "Buses.All"))
+    written = ac.export.modelica(system, tmp_path / "written.mo")
+    assert "connect(s.bus_sig, r.bus_sig);" in written.read_text()
+    again = ac.simulate(ac.compile(ac.load(written)), 2.0)
+    assert float(again["r.f.y"][-1]) == pytest.approx(
+        float(ac.simulate(system, 2.0)["r.f.y"][-1]), rel=1e-9
+    )

@@ -254,7 +254,7 @@ class ClassWriter:
             raise ModelError(
                 f"export.modelica: {self.node.label} connects '{local}', which is not part of it"
             )
-        return dotted([*self.package.way(self.node, route), *local.split(".")])
+        return dotted([*self.package.way(self.node, route), *spelled(owner, local).split(".")])
 
     def _input(self, path: Sequence[str]) -> str:
         """An input's name by its path."""
@@ -262,7 +262,8 @@ class ClassWriter:
         while path[parts] in node.children:
             node = node.children[path[parts]]._node
             parts += 1
-        return dotted([*self.package.way(self.node, path[:parts]), *path[parts:]])
+        local = spelled(node, ".".join(path[parts:]))
+        return dotted([*self.package.way(self.node, path[:parts]), *local.split(".")])
 
     def value(self, given: Any, shape: tuple[int, ...] | None = None) -> str:
         """The text of a value; one number for a whole array of a shape fills it."""
