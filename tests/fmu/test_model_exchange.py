@@ -412,7 +412,7 @@ def test_lanes_have_instances_of_their_own(exported: Exported) -> None:
 
 def test_a_model_with_an_fmu_is_not_exported(exported: Exported, tmp_path: Path) -> None:
     system = ac.compile(Driven(exported(Mass)))
-    for write in (ac.export.fmu, ac.export.c, ac.export.onnx):
+    for write in (ac.export.fmu, ac.export.c, ac.export.onnx, ac.export.modelica):
         with pytest.raises(ac.ExportError, match="'plant' is an FMU, whose equations nobody knows"):
             write(system, tmp_path / "model.fmu")
 
