@@ -186,9 +186,8 @@ def _smallest_across(
     bordered: Float[Array, "k+1 m"], r: Float[Array, " k+1"]
 ) -> Float[Array, " m"]:
     """The same at right angles to the last row, which holds in any case: others may contradict each other."""
-    rows, across = bordered[:-1], bordered[-1]
-    rows = rows - (rows @ across)[:, None] * across / (across @ across)
-    return _smallest(rows, r[:-1])
+    step, across = _smallest(bordered, r), bordered[-1]
+    return step - across * (across @ step) / (across @ across)
 
 
 def _smallest(jacobian: Float[Array, "k m"], r: Float[Array, " k"]) -> Float[Array, " m"]:
