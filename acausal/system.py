@@ -392,7 +392,7 @@ class System(LeavesCaches):
         Returns:
             dx/dt, shape (n_states,).
         """
-        return self.rates(self._values_in_modes(t, x, u, params))
+        return self.rates(self.in_modes(self.values(t, x, u, params)))
 
     def observe(
         self,
@@ -407,7 +407,7 @@ class System(LeavesCaches):
         ``der(name)`` gives a derivative that the model knows.
         """
         names = names_in(name)
-        y = self.read(names, self._values_in_modes(t, x, u, params))
+        y = self.read(names, self.in_modes(self.values(t, x, u, params)))
         return y[0] if isinstance(name, str) else y
 
     def vector_field_and_observe(
@@ -423,13 +423,7 @@ class System(LeavesCaches):
         Shared values are computed and differentiated only once. In the gradient of a loss this is twice as fast as
         `vector_field` and `observe`.
         """
-        return self.rates_and_read(names, self._values_in_modes(t, x, u, params))
-
-    def _values_in_modes(
-        self, t: ArrayLike, x: ArrayLike, u: ArrayLike | None, params: Params
-    ) -> Values:
-        values = self.values(t, x, u, params)
-        return values if self.events is None else values._replace(d=self.modes(values).d)
+        return self.rates_and_read(names, self.in_modes(self.values(t, x, u, params)))
 
     # -- the same with values in one record, for simulation and training ------------------------------
 
@@ -617,6 +611,10 @@ class System(LeavesCaches):
             t=t, d=self.initializer.conditions.discrete_start(values.packed).astype(x.dtype)
         )
         return start_of(self.events, start, lambda d: x, self.describe_discrete)
+
+    def in_modes(self, values: Values) -> Values:
+        """The same values with these discrete variables; states stay as they are, even if they jump at once."""
+        return values._replace(d=self.modes(values).d)
 
     def initialize(
         self,

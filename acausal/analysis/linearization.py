@@ -388,8 +388,8 @@ def point_of(
     t = 0.0 if t is None else t
     check_time(t)
     packed, given = system.pack(params), system.inputs_at(t, inputs)
-    at = system.values(t, system.initial_state(packed, x, inputs=given, t0=t), given, packed)
-    return at._replace(d=system.modes(at).d)
+    state = system.initial_state(packed, x, inputs=given, t0=t)
+    return system.in_modes(system.values(t, state, given, packed))
 
 
 def linearize(

@@ -98,7 +98,7 @@ def before_events(
     d = _begun(events, start)
     try:
         now = before = initial_state(d), d
-    except InitializationError:
+    except InitializationError:  # there may be initial values in the modes that are declared
         now = before = initial_state(start.d), start.d
     for _ in range(STARTS):
         found = _begun(events, start._replace(x=now[0]))

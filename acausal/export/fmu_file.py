@@ -195,7 +195,7 @@ def _stable(
     """
     x, u = jnp.asarray(text.start), jnp.zeros(len(system.inputs))
     at = Values(jnp.zeros(()), x, u, system.pack(params), jnp.asarray(text.discrete_start))
-    at = at._replace(d=system.modes(at).d)
+    at = system.in_modes(at)
     rows = at._replace(t=jnp.zeros(1), x=x[None], u=u[None])
     modes = [fastest_mode(system, rows._replace(d=d))[0] for d in _switch_positions(system, at)]
     damping = max(modes)

@@ -364,7 +364,8 @@ def _warn_of_broken(runs: Solution, columns: Mapping[str, Float[np.ndarray, " n"
     broken = ~np.all(np.isfinite(np.asarray(runs.x)), axis=(1, 2))
     endless, span = np.zeros_like(broken), float(np.ptp(runs.t))
     if runs.log is not None:
-        logs = (jax.tree.map(lambda a, k=k: a[k], runs.log) for k in range(len(broken)))
+        every = jax.tree.map(np.asarray, runs.log)  # whose rows cost nothing
+        logs = (jax.tree.map(lambda a, k=k: a[k], every) for k in range(len(broken)))
         endless |= [log.without_end(span) is not None for log in logs]
     for which, what, why in (
         (broken, "did not reach the end", "their values are not finite"),
