@@ -44,6 +44,7 @@ from .modelica import (
 )
 from .modeling import (
     Abs as Abs,
+    Assert as Assert,
     Budget as Budget,
     Component as Component,
     Connector as Connector,

@@ -22,6 +22,7 @@ from acausal._jax import (
     floating,
     is_real,
     need_double_precision,
+    traced,
 )
 from acausal.codegen import (
     Field,
@@ -30,6 +31,7 @@ from acausal.codegen import (
     Program,
     StateJacobian,
     Values,
+    check_assertions,
     default_parameters,
     explain_nonfinite,
     explicit_equations,
@@ -40,7 +42,16 @@ from acausal.codegen import (
     rates_and_read,
     read,
 )
-from acausal.errors import DataError, ModelError, known_name, nearest, need_flag, shown, warn
+from acausal.errors import (
+    DataError,
+    DeclarationError,
+    ModelError,
+    known_name,
+    nearest,
+    need_flag,
+    shown,
+    warn,
+)
 from acausal.events import Edges, Events, before_events, generate_events, start_of
 from acausal.flattening import (
     FlatModel,
@@ -64,7 +75,7 @@ from acausal.modeling import (
     by_element,
     names_in,
 )
-from acausal.structure import ReducedModel, reduce, with_loop_guesses
+from acausal.structure import ReducedModel, parameter_values, reduce, with_loop_guesses
 from acausal.units import check_dimensions
 
 if TYPE_CHECKING:
@@ -125,6 +136,8 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         _warn_of_silent(flat)
         if check_units:
             check_dimensions(flat)
+        if flat.assertions:
+            check_assertions(flat, parameter_values(flat), DeclarationError)
         found = _derived(model, flat)
     size = f"{flat.n_equations} equations, {len(found.reduced.states)} states"
     LOGGER.info("compiled %s in %.3g s: %s", flat.name, time.perf_counter() - began, size)
@@ -373,12 +386,23 @@ class System(LeavesCaches):
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
 
         Raises:
-            DataError: for an unknown name, or a value that does not fit.
+            DataError: for an unknown name, or a value that does not fit, also where an assertion says so.
         """
         need_double_precision()
         if params is None:
             params = self.parameters()
-        return pack(self.layout, params)
+        packed = pack(self.layout, params)
+        if self.flat.assertions and packed is not params and not traced(packed.values):
+            values = np.asarray(packed.values)
+            if values.tobytes() != self._allowed:
+                check_assertions(self.flat, self.layout.by_number(values), DataError)
+                vars(self)["_allowed"] = values.tobytes()
+        return packed
+
+    @cached_property
+    def _allowed(self) -> bytes:
+        """The last values of parameters for which the assertions of the model hold."""
+        return b""
 
     def vector_field(
         self, t: ArrayLike, x: ArrayLike, u: ArrayLike | None, params: Params

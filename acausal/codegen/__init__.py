@@ -4,6 +4,11 @@ In: a `ReducedModel`. Out: a `Program` and the layout of its parameters.
 It knows nothing of initial values, time integration or data.
 """
 
+from acausal.codegen.assertions import (
+    asserted as asserted,
+    check_assertions as check_assertions,
+    failures as failures,
+)
 from acausal.codegen.equation_formula import formula_of as formula_of
 from acausal.codegen.equations import explicit_equations as explicit_equations
 from acausal.codegen.gather import Gather as Gather

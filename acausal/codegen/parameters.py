@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
+from jaxtyping import Float
 
 from acausal.codegen.gather import Gather, gather
 from acausal.codegen.instructions import Arguments, ArrayFormula
@@ -139,6 +140,10 @@ class ParameterLayout(LeavesCaches):
             reached += [a for a in arguments.get(i, ()) if a not in reached]
         sources = [self.model.layout.parameter(i) for i in reached if i not in arguments]
         return f"'{name}' is bound to an expression; change {listing(sources)} in its place"
+
+    def by_number(self, values: Float[np.ndarray, " size"]) -> Float[np.ndarray, " n_values"]:
+        """What lies in ``Packed.values`` by the numbers of parameters, those that are folded zero, and of constants."""
+        return np.append(values, 0.0)[self.position]
 
     def gather(self, parameters: Integers) -> Gather:
         """How to read some parameters out of ``Packed.values``, and a zero behind it for those that are folded."""

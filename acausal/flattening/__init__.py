@@ -8,6 +8,7 @@ from acausal.flattening.analysis_points import opened as opened
 from acausal.flattening.bindings import Binding as Binding, binding_levels as binding_levels
 from acausal.flattening.connections import unconnected as unconnected
 from acausal.flattening.equation_group import (
+    AssertionGroup as AssertionGroup,
     EquationGroup as EquationGroup,
     GuardGroup as GuardGroup,
     UpdateGroup as UpdateGroup,
@@ -29,7 +30,7 @@ from acausal.flattening.foreseen import (
 from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.leaves_caches import LeavesCaches as LeavesCaches
-from acausal.flattening.origin import Origin as Origin, is_hidden as is_hidden
+from acausal.flattening.origin import Origin as Origin, dotted as dotted, is_hidden as is_hidden
 from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,

@@ -12,6 +12,7 @@ from acausal.errors import StructureError
 from acausal.flattening.origin import Origin, Origins
 from acausal.flattening.sums import Statement
 from acausal.flattening.template import Integers, KeptSlots, Template
+from acausal.modeling import Assert
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,18 @@ def specialised(
         return template.specialised(pattern)
     except StructureError as error:
         raise StructureError(f"{origin}: {error}") from None
+
+
+@dataclass(frozen=True)
+class AssertionGroup:
+    """What must hold: the template's residual is 1 where it does, else 0.
+
+    Attributes:
+        group: the template and its instances. stated: by their class.
+    """
+
+    group: EquationGroup
+    stated: Assert
 
 
 @dataclass(frozen=True)

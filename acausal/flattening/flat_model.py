@@ -17,7 +17,11 @@ from acausal.flattening.connections import (
     model_inputs,
     model_outputs,
 )
-from acausal.flattening.equation_group import EquationGroup, EventEquations
+from acausal.flattening.equation_group import (
+    AssertionGroup,
+    EquationGroup,
+    EventEquations,
+)
 from acausal.flattening.instances import instantiate
 from acausal.flattening.layout import Layout, declared, lay_out
 from acausal.flattening.leaves_caches import LeavesCaches
@@ -38,7 +42,7 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
         name: of the model: its class, or the title in its file.
         layout: names of everything.
         groups: all equations, including those of connections; ``initial``: equations at the initial time.
-        events: what holds at events.
+        events: what holds at events. assertions: what must hold.
         inputs: indices of the variables that are the model's inputs.
         given: discrete variables that are not found at events: inputs, and conditions that nothing else needs.
         module_values: value or factory of every module; an int refers to another module.
@@ -52,6 +56,7 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
     groups: tuple[EquationGroup, ...]
     initial: tuple[EquationGroup, ...]
     events: EventEquations
+    assertions: tuple[AssertionGroup, ...]
     inputs: Integers
     module_values: tuple[Callable[..., Any] | int, ...]
     silent: Mapping[str, Silent]
@@ -151,6 +156,7 @@ def _flat(model: Component, watch: bool) -> FlatModel:
         groups=(*stated.equations, *connection_groups(layout, sets)),
         initial=stated.initial,
         events=stated.events,
+        assertions=stated.assertions,
         inputs=model_inputs(layout, sets),
         **vars(attributes),
         value=np.append(parameters.value, stated.constants),

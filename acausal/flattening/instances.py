@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError, shown
 from acausal.flattening.equation_group import (
+    AssertionGroup,
     EquationGroup,
     EventEquations,
     GuardGroup,
@@ -35,11 +36,12 @@ class Instances:
     equations: tuple[EquationGroup, ...]
     initial: tuple[EquationGroup, ...]
     events: EventEquations
+    assertions: tuple[AssertionGroup, ...]
     constants: tuple[float, ...]
 
 
 def instantiate(layout: Layout, statements: Sequence[Stated]) -> Instances:
-    """All equations, all initial equations, and those of events.
+    """All equations, all initial equations, those of events, and assertions.
 
     Arguments:
         layout: where everything lies. statements: what the components of each form state.
@@ -52,6 +54,7 @@ def instantiate(layout: Layout, statements: Sequence[Stated]) -> Instances:
     guards: list[GuardGroup] = []
     updates: list[UpdateGroup] = []
     jumps: list[UpdateGroup] = []
+    assertions: list[AssertionGroup] = []
     members = members_of_forms(layout)
     templates = Templates(layout)
     shapes: list[list[EquationShape]] = []
@@ -71,10 +74,15 @@ def instantiate(layout: Layout, statements: Sequence[Stated]) -> Instances:
             guards.append(GuardGroup(**parts, strict=guard.strict, ticks=guard.ticks))
         updates += [_update(templates, prototype, update, own) for update in stated.updates]
         jumps += [_update(templates, prototype, jump, own) for jump in stated.jumps]
+        for one in stated.assertions:
+            filled = templates.of(templates.shape(prototype, one.truth, str(one)))
+            group = _fill(templates, filled, Origin(str(one), prototype), own)
+            assertions.append(AssertionGroup(group, one))
     order = np.argsort([g.components[0] for g in equations], kind="stable")
     events = EventEquations(tuple(guards), tuple(updates), tuple(jumps))
     constants = tuple(templates.constants)
-    return Instances(tuple(equations[i] for i in order), tuple(initial), events, constants)
+    always = tuple(equations[i] for i in order)
+    return Instances(always, tuple(initial), events, tuple(assertions), constants)
 
 
 def _shape(templates: Templates, owner: Component, stated: Any) -> EquationShape:

@@ -17,6 +17,7 @@ from acausal.flattening.silent import deciding, silent_parameters
 from acausal.flattening.stated import Stated, asks_for_events, with_events
 from acausal.flattening.template import Integers
 from acausal.modeling import (
+    Assert,
     Component,
     Connector,
     Declaration,
@@ -240,23 +241,28 @@ def _with_statements(
         is_own = isinstance(symbol, Reference) and id(symbol.owner) in number
         return (number[id(symbol.owner)], symbol.path) if is_own else symbol
 
-    read = [read_statements(f.prototype, lambda p=f.prototype: equations_of(p), 1) for f in forms]
+    read: list[list[Any]] = []
+    asserted: list[tuple[Assert, ...]] = []
+    for form in forms:
+        own = read_statements(form.prototype, lambda p=form.prototype: equations_of(p), 1)
+        asserted.append(tuple(one for one in own if isinstance(one, Assert)))
+        read.append([one for one in own if not isinstance(one, Assert)])
     pairs = list(zip(forms, read, strict=True))
     watched = watch or any(
         asks_for_events((v for _, v in form.variables), stated) for form, stated in pairs
     )
     every = itertools.chain.from_iterable(read)
     decide = deciding(every, variable, connected) if watched else set[int]()
-    silent = [
-        silent_parameters(f.prototype, stated, decide, with_events=watched) for f, stated in pairs
+    statements = [
+        replace(
+            with_events(form.prototype, stated, decide) if watched else Stated(tuple(stated)),
+            silent=silent_parameters(form.prototype, stated, decide, with_events=watched),
+            assertions=must_hold,
+        )
+        for (form, stated), must_hold in zip(pairs, asserted, strict=True)
     ]
     if not watched:
-        found = zip(read, silent, strict=True)
-        return forms, tuple(Stated(tuple(stated), silent=some) for stated, some in found)
-    statements = [
-        replace(with_events(form.prototype, stated, decide), silent=some)
-        for (form, stated), some in zip(pairs, silent, strict=True)
-    ]
+        return forms, tuple(statements)
     extended = [
         replace(form, variables=(*form.variables, *stated.hidden))
         for form, stated in zip(forms, statements, strict=True)

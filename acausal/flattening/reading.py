@@ -70,7 +70,7 @@ def _is_sympys(error: Exception) -> bool:
 def _line(error: Exception) -> str:
     """The line of the user's file that raised an error."""
     frames = traceback.extract_tb(error.__traceback__)
-    inner = ("site-packages", __file__, str(Path("acausal", "modeling")))
+    inner = ("site-packages", "<string>", __file__, str(Path("acausal", "modeling")))
     own = [f for f in frames if not any(part in f.filename for part in inner)]
     return f", {_place(own[-1].filename, own[-1].lineno)}" if own else ""
 

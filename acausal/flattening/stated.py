@@ -27,6 +27,7 @@ from acausal.flattening.silent import (
 from acausal.modeling import (
     HALF,
     INITIAL,
+    Assert,
     Component,
     Discrete,
     Eq,
@@ -88,6 +89,7 @@ class Stated:
         guards, updates, jumps: what holds at events.
         hidden: local names and declarations of the hidden variables.
         silent: parameters that act through conditions alone that are not events.
+        assertions: what must hold.
     """
 
     equations: tuple[Eq, ...]
@@ -96,6 +98,7 @@ class Stated:
     jumps: tuple[UpdateStatement, ...] = ()
     hidden: tuple[tuple[str, Discrete], ...] = ()
     silent: tuple[Silent, ...] = ()
+    assertions: tuple[Assert, ...] = ()
 
 
 def asks_for_events(declared: Iterable[Variable], stated: Iterable[Any]) -> bool:

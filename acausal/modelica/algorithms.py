@@ -22,6 +22,7 @@ from acausal.modelica.syntax import (
     Expression,
     FunctionCall,
     Loop,
+    OperatorExpression,
     Several,
     Statement,
 )
@@ -283,21 +284,33 @@ class Algorithms(Evaluator):
 
     def checked(self, call: FunctionCall) -> None:
         """An assertion: of parameters it is checked now, of others there is a warning that nothing watches it."""
+        holds, text, level = self.asserted(call)
+        if level == "warning":
+            return
+        if isinstance(holds, sp.Basic) and self.varies(holds):
+            self.unwatched(call, "this assertion is not watched while the model runs")
+        elif self.known(holds, "this assertion") is False:
+            raise self.wrong(f"this assertion is violated: {text}")
+
+    def asserted(self, call: FunctionCall) -> tuple[Any, str, str]:
+        """Condition, text and level of an assertion."""
+        if self.frame.build is not None:
+            self.frame.build.performs = True
         arguments = [*call.arguments, *call.named.values()]
         if len(arguments) < 2:
             raise self.wrong("assert takes a condition and a text")
         holds = self.truth(self.value(arguments[0]))
         level = arguments[2] if len(arguments) > 2 else None
-        if isinstance(level, DottedName) and level.words[-1] == "warning":
-            return
-        if isinstance(holds, sp.Basic) and self.varies(holds):
-            self.unwatched(call, "this assertion is not watched while the model runs")
-            return
-        if self.known(holds, "this assertion") is False:
-            text = "it is false"
-            with suppress(ModelicaError):  # of what changes with time
-                text = self.value(arguments[1])
-            raise self.wrong(f"this assertion is violated: {text}")
+        is_warning = isinstance(level, DottedName) and level.words[-1] == "warning"
+        return holds, self._shown(arguments[1]), "warning" if is_warning else "error"
+
+    def _shown(self, text: Expression) -> str:
+        """A text; what changes with time is left out."""
+        try:
+            return str(self.value(text))
+        except ModelicaError:
+            joined = isinstance(text, OperatorExpression) and text.operator == "+"
+            return "".join(map(self._shown, text.operands)) if joined else "..."
 
 
 @lru_cache(maxsize=50_000)

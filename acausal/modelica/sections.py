@@ -33,6 +33,7 @@ from acausal.modelica.values import (
     type_of,
 )
 from acausal.modeling import (
+    Assert,
     Component,
     Discrete,
     Eq,
@@ -71,6 +72,8 @@ class SectionReader(Connecting):
                     self.further = []
                     yield self._when(statement, lambda body: list(self._at_event(body)))
                     yield from self.further
+                case Do() if statement.call.function.text == "assert":
+                    yield from self._assertion(statement.call)
                 case Do() if not is_of_graph(statement):
                     self.perform(statement.call)
                 case Do() | Connect():
@@ -157,6 +160,10 @@ class SectionReader(Connecting):
         at = self.at
         first, second = list(self.stated(body)), list(self._cases(rest))
         self.at = at
+        for some, applies in ((first, holds), (second, sp.Not(holds))):
+            for one in [one for one in some if isinstance(one, Assert)]:
+                some.remove(one)
+                yield Assert(sp.Or(sp.Not(applies), one.condition), one.text, one.level)
         if len(first) != len(second):
             reason = (
                 f"the branches have {len(first)} and {len(second)} equations; they need as many"
@@ -170,6 +177,21 @@ class SectionReader(Connecting):
             else:
                 sides = [self.arithmetic("-", e.lhs, e.rhs) for e in (a, b)]
                 yield Eq(0, self.chosen(holds, *sides))
+
+    def _assertion(self, call: FunctionCall) -> Iterator[Assert]:
+        """An assertion of what varies, which a simulation looks at; one of parameters is looked at now, too."""
+        self.at = call.at
+        holds, text, level = self.asserted(call)
+        varies = isinstance(holds, sp.Basic) and self.varies(holds)
+        if not varies:
+            self.perform(call)
+        if isinstance(holds, sp.Basic):
+            place = self.frame.node.source.place(call.at)
+            try:
+                yield Assert(holds, f"{text} ({place})" if place else text, level)
+            except DeclarationError:
+                if varies:
+                    self.perform(call)  # which says that nothing watches it
 
     # -- when ----------------------------------------------------------------------------------------------
 

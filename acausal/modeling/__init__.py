@@ -6,6 +6,7 @@ It knows neither JAX nor files, nor any later stage.
 
 from sympy import pi as pi
 
+from acausal.modeling.assertions import Assert as Assert
 from acausal.modeling.budget import (
     PYTHON as PYTHON,
     Budget as Budget,

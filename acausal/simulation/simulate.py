@@ -25,9 +25,9 @@ from acausal._jax import (
     select,
     traced,
 )
-from acausal.codegen import Packed
+from acausal.codegen import Packed, asserted, check_assertions
 from acausal.data import Data, Signal, check_resolution
-from acausal.errors import DataError, need_compiled, need_whole, shown, warn
+from acausal.errors import DataError, SimulationError, need_compiled, need_whole, shown, warn
 from acausal.events import PART_OF_PERIOD
 from acausal.simulation import solvers
 from acausal.simulation.fixed import are_split, simulate_fixed
@@ -129,7 +129,8 @@ def simulate(
     Raises:
         ModelError: for a model that is not compiled.
         DataError: for missing, unknown or malformed inputs and times.
-        SimulationError: if the solution stops short of the end, with the time reached, or runs away.
+        SimulationError: if the solution stops short of the end, with the time reached, or runs away; where an assertion
+            of the model (`Assert`) does not hold at a point of the result.
 
     Warns:
         UserWarning: if fixed steps are too long for an explicit solver, and states are rough; if derivatives are taken,
@@ -187,16 +188,26 @@ def simulate(
         scheme = solvers.solver_named("tsit5", fixed=True) if chosen is None else chosen
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
         solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
-        _warn_of_another_solution(solution)
-        return solution
-    if atol is None and ends is None:
+    elif atol is None and ends is None:
         solution = with_small_states(lambda a: replace(in_steps, atol=a).simulate(run), n_states)
     else:
         solution = in_steps.simulate(run)
     if saveat is None and ends is None:
         _warn_of_few_points(solution, end - start)
     _warn_of_another_solution(solution)
+    _check_assertions(solution)
     return solution
+
+
+def _check_assertions(solution: Solution) -> None:
+    """Refuse a result in which an assertion of the model does not hold, or warn, as it says."""
+    system = solution.system
+    names = asserted(system.flat)
+    if names is None or traced(solution.values) or solution.t.ndim != 1:
+        return
+    columns = solution.to_dict(names)
+    value = system.layout.by_number(np.asarray(solution.packed.last.values))
+    check_assertions(system.flat, value, SimulationError, columns)
 
 
 def _warn_of_another_solution(solution: Solution) -> None:

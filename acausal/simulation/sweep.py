@@ -15,6 +15,7 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import is_real
+from acausal.codegen import asserted, failures
 from acausal.errors import (
     DataError,
     nearest,
@@ -360,6 +361,26 @@ def _variants(
     return dict(values)
 
 
+def _failures(runs: Solution, count: int) -> list[str]:
+    """For each variant the first assertion that does not hold; empty where all do."""
+    system = runs.system
+    if not system.flat.assertions:
+        return [""] * count
+    names = asserted(system.flat)
+    values, t = np.asarray(runs.packed.values), np.asarray(runs.t)
+    columns = None if not names else np.asarray(jax.vmap(lambda run: run[names])(runs))
+
+    def first(k: int) -> str:
+        value = system.layout.by_number(values[k] if values.ndim > 1 else values)
+        found = failures(system.flat, value)
+        if names is not None:
+            own = {} if columns is None else dict(zip(names, columns[k].T, strict=True))
+            found |= failures(system.flat, value, {"time": t[k] if t.ndim > 1 else t, **own})
+        return next(iter(found), "")
+
+    return list(map(first, range(count)))
+
+
 def _warn_of_broken(runs: Solution, columns: Mapping[str, Float[np.ndarray, " n"]]) -> None:
     broken = ~np.all(np.isfinite(np.asarray(runs.x)), axis=(1, 2))
     endless, span = np.zeros_like(broken), float(np.ptp(runs.t))
@@ -367,9 +388,12 @@ def _warn_of_broken(runs: Solution, columns: Mapping[str, Float[np.ndarray, " n"
         every = jax.tree.map(np.asarray, runs.log)  # whose rows cost nothing
         logs = (jax.tree.map(lambda a, k=k: a[k], every) for k in range(len(broken)))
         endless |= [log.without_end(span) is not None for log in logs]
+    failed = _failures(runs, len(broken))
+    first_failed = next((text for text in failed if text), "")
     for which, what, why in (
         (broken, "did not reach the end", "their values are not finite"),
         (endless, "went on behind events without end", "they slide or bounce for ever"),
+        (np.asarray(list(map(bool, failed))), "are not as their model asserts", first_failed),
     ):
         if which.any():
             first = int(np.argmax(which))

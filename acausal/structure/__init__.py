@@ -17,6 +17,10 @@ from acausal.structure.elimination_order import (
     Pattern as Pattern,
     analyse_diagonal as analyse_diagonal,
 )
+from acausal.structure.jacobian import (
+    numeric_function as numeric_function,
+    parameter_values as parameter_values,
+)
 from acausal.structure.loop_guesses import with_loop_guesses as with_loop_guesses
 from acausal.structure.reduced_model import ReducedModel as ReducedModel, reduce as reduce
 from acausal.structure.sparse_loops import SparseGroup as SparseGroup, SparseLoop as SparseLoop

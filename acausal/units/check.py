@@ -143,7 +143,8 @@ def _dimension(unit: str) -> Dimension | None:
 
 def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
     found: dict[tuple[str, str], list[str]] = {}
-    for stated in flat.equations(initial=True):
+    asserted = (one.group for one in flat.assertions)
+    for stated in (*flat.equations(initial=True), *asserted):
         if stated.components[0] < 0:  # a connection
             continue
         group = _with_numbers(flat, stated, least=True)

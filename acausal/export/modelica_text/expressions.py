@@ -12,10 +12,11 @@ from sympy.printing.str import StrPrinter
 
 from acausal.errors import ModelError
 from acausal.export.modelica_text.discrete import cases, is_discrete, is_whole
-from acausal.export.modelica_text.spelling import number
+from acausal.export.modelica_text.spelling import number, text as quoted
 from acausal.modeling import (
     HALF,
     INITIAL,
+    Assert,
     Eq,
     Floored,
     Parameter,
@@ -257,6 +258,10 @@ def equation(names: Names, stated: Any, indent: str) -> list[str]:
             return [f"{indent}{left} = {right};"]
         case When():
             return _when(names, stated, indent)
+        case Assert():
+            holds, level = Printer(names).condition(stated.condition), stated.level
+            also = f", AssertionLevel.{level}" if level != "error" else ""
+            return [f"{indent}assert({holds}, {quoted(stated.text)}{also});"]
         case _:
             raise ModelError(f"export.modelica: {type(stated).__name__} is no equation")
 
