@@ -198,7 +198,10 @@ class Component:
     def _refuse_slip(self, name: str) -> None:
         """Refuse a number under a name that is like a parameter's, and of nothing: it would be ignored."""
         known = [*self._declared, *self._node.own_declarations]
-        if not name.startswith("_") and not hasattr(type(self), name) and like(name, known, SLIP):
+        if name.startswith("_") or hasattr(type(self), name):
+            return
+        of_library = type(self).__module__.startswith("acausal.components.")
+        if of_library or like(name, known, SLIP):
             raise DeclarationError(f"{self._node.label} has no '{name}': {nearest(name, known)}")
 
     def _claim(self, name: str, is_new: bool = True) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
-from acausal.errors import DeclarationError, need_flag, need_text, shown
+from acausal.errors import DeclarationError, is_whole, need_flag, need_text, shown
 from acausal.modeling.written import call_text
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
@@ -289,15 +289,25 @@ class DiscreteOutput(Discrete, Output):
 
 
 class Option(Declaration):
-    """A structural choice, fixed when the component is made: it may change equations and connectors."""
+    """A structural choice, fixed when the component is made: it may change equations and connectors.
+
+    ``choices`` are all that it can be; of a whole number ``min`` is the least.
+    """
 
     def __init__(
-        self, default: Any, *, choices: tuple[Any, ...] | None = None, doc: str = ""
+        self,
+        default: Any,
+        *,
+        choices: tuple[Any, ...] | None = None,
+        min: int | None = None,  # noqa: A002 (Modelica's name)
+        doc: str = "",
     ) -> None:
         super().__init__(doc=doc)
         if not isinstance(choices, tuple | list | None):
             raise DeclarationError(f"choices={shown(choices)} must be a tuple")
-        self.default, self.choices = default, choices
+        if not (min is None or (is_whole(min) and is_whole(default))):
+            raise DeclarationError(f"min={shown(min)} is for options that are whole numbers")
+        self.default, self.choices, self.min = default, choices, min
 
 
 class Module(Declaration):

@@ -208,6 +208,8 @@ def _remark(declared: Declared) -> str:
         when, parts = declared._when, list[str]()
     if isinstance(declared, Option) and declared.choices:
         parts.append(f"one of {', '.join(map(repr, declared.choices))}")
+    if isinstance(declared, Option) and declared.min is not None:
+        parts.append(f"at least {declared.min}")
     if when and not when.removeprefix("not ").startswith("_"):
         parts.append(f"only with {when}")
     return "; ".join(parts)

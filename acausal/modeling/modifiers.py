@@ -57,6 +57,8 @@ def record_modifier(
                 raise DeclarationError(f"{where}={shown(value)}: True or False is needed")
             if is_whole(declared.default) and not is_whole(value):
                 raise DeclarationError(f"{where}={shown(value)}: a whole number is needed")
+            if declared.min is not None and int(value) < declared.min:
+                raise DeclarationError(f"{where}={value} is out of range: at least {declared.min}")
             node.options[name] = value
         case Variable():
             _merge_start(node, name, start_of(where, value))

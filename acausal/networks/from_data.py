@@ -5,9 +5,11 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
+from jax.typing import ArrayLike
 from jaxtyping import Array
 
 from acausal.data import like_saved
@@ -167,7 +169,11 @@ def _(network: Any, settings: Mapping[str, str]) -> Any:
 
 def _beside(net: Any, shape: LawShape, slope: list[float], offset: float) -> Any:
     """The network beside a linear law, in numbers about one."""
-    if shape.divides or shape.positive:
+    if shape.positive:
+        return net
+    if shape.rising and shape.has_constant:
+        net = _with_layers(net, partial(_raised, offset - net(*(0.0,) * shape.every)))
+    if shape.divides:
         return net
     if shape.rising:
         start = start_at(max(slope[0], LEAST))
@@ -177,6 +183,13 @@ def _beside(net: Any, shape: LawShape, slope: list[float], offset: float) -> Any
     beside = BesideQuadratic if shape.energy else BesideLinear
     level = None if shape.through_zero else jnp.asarray(offset, float)
     return beside(net, jnp.asarray(slope[: shape.inputs], float), level)
+
+
+def _raised(by: ArrayLike, net: Layered) -> Layered:
+    """The same network with a result that is larger by a constant; one without layers of biases as it is."""
+    if isinstance(net, MLP):
+        return net
+    return _with(net, biases=(*net.biases[:-1], net.biases[-1] + by))
 
 
 def _own_start(network: Any) -> Array | None:

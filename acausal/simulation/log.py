@@ -39,6 +39,9 @@ JUMP = "an input jumps"
 """What is said of an event that no condition made."""
 
 
+EVENTS_UNKNOWN = """Events are not known while JAX traces, and have no derivatives; return the solution, and ask for \
+them outside."""
+
 CLOCK = re.compile(r"(?:([\w.\[\]]+) >=? time|time [<>]=? ([\w.\[\]]+))$")
 """A condition of the time, which is over once it has made its event."""
 
@@ -152,9 +155,7 @@ class Log(NamedTuple):
         """
         log = known(self)
         if log is None:
-            raise DataError(
-                "Events are not known while JAX traces; return the solution, and ask for them outside."
-            )
+            raise DataError(EVENTS_UNKNOWN)
         if np.ndim(log.total):
             raise DataError(
                 "These are runs side by side, each with events of its own; take one: "

@@ -20,7 +20,7 @@ from acausal.files import csv_text, need_path, write_files
 from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.finite import warn_of_nonfinite
 from acausal.simulation.inputs import TimeFunction, evaluate_all
-from acausal.simulation.log import EventList, Log
+from acausal.simulation.log import EVENTS_UNKNOWN, EventList, Log
 from acausal.simulation.motion import animation, has_shapes
 from acausal.simulation.statistics import Statistics
 
@@ -112,7 +112,7 @@ class Solution(ByName):
         Raises:
             DataError: while JAX traces, and for runs side by side (`jax.vmap`).
         """
-        return EventList() if self.log is None else self.log.events(self.system)
+        return EventList() if self.log is None else self._known_log(self.log).events(self.system)
 
     @cached_property
     def before(self) -> Solution:
@@ -128,8 +128,14 @@ class Solution(ByName):
         """All variables just after each event; as `before`."""
         return self._beside(after=True)
 
+    def _known_log(self, log: Log) -> Log:
+        """The log, unless derivatives are being taken: it has none."""
+        if traced(self.values):
+            raise DataError(EVENTS_UNKNOWN)
+        return log
+
     def _beside(self, *, after: bool) -> Solution:
-        log, n = None if self.log is None else self.log.kept(), len(self.system.states)
+        log, n = self.log and self._known_log(self.log).kept(), len(self.system.states)
         if log is None:
             nothing = self.values._replace(t=self.t[:0], x=self.x[:0], u=self.u[:0])
             return Solution(nothing, self.system)

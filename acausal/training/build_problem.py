@@ -125,7 +125,7 @@ def build_problem(
         weighting=weights,
         sequences=sequences if weights.alike else sequences.weighted(records),
         first_states=first_states(system, data, options.x0),
-        start_prior=start_prior(system.states, data, options.x0),
+        start_prior=start_prior(system, data, options.x0),
         shooting=None,
         loss=loss,
         prior=prior_of(options.prior, params),

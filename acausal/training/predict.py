@@ -229,7 +229,7 @@ def _own(fit: TrainedModel, some: _Some) -> Own:
     laid, names = problem.records, problem.per_record.names
     measured = np.isfinite(laid.measured)
     has = np.array([measured[laid.rows_of(k)].any() for k in range(laid.count)])
-    prior = start_prior(problem.system.states, records, x0)
+    prior = start_prior(problem.system, records, x0)
     if prior is not None:
         known = StartPrior(jnp.where(has[:, None], prior.scale, 0.0))
         problem = with_sizes(replace(problem, start_prior=known), trainable)

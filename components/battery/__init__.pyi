@@ -58,7 +58,7 @@ class Particle(ac.Component):
     fixed_start: ClassVar[ac.Option]
     """whether all shells start at soc_start"""
     n: ClassVar[ac.Option]
-    """number of shells, at least 2"""
+    """number of shells"""
     learned: ClassVar[ac.Option]
     """whether the time constant depends on charge by a network"""
     Q: ClassVar[ac.Parameter]

@@ -63,7 +63,7 @@ class Particle(ac.Component):
     heatPort = HeatPort_a(when="useHeatPort")
     useHeatPort = ac.Option(False, doc="whether there is a heat port")
     fixed_start = ac.Option(True, doc="whether all shells start at soc_start")
-    n = ac.Option(3, doc="number of shells, at least 2")
+    n = ac.Option(3, min=2, doc="number of shells")
     learned = ac.Option(True, doc="whether the time constant depends on charge by a network")
     Q = ac.Parameter(unit="C", min=0, doc="capacity")
     tau = ac.Parameter(unit="s", min=0, doc="time of diffusion at T_ref")

@@ -13,6 +13,9 @@ INIT = ("NoInit", "SteadyState", "InitialState", "InitialOutput")
 """How a block with states starts: the choices of ``initType``, as in `Modelica.Blocks.Types.Init`."""
 
 
+CROSSED = "the lower limit lies above the upper one; give both, or exchange them"
+"""What it means that limits are not in order."""
+
 LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
 VARIABLE_LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "Fixed")
 """The choices of ``homotopyType``, as in `Modelica.Blocks.Types`."""

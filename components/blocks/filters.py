@@ -55,7 +55,7 @@ class CriticalDamping(SISO):
 
     ICON = icons.marked(icons.LAG, "n")
 
-    n = ac.Option(2, doc="order of the filter")
+    n = ac.Option(2, min=1, doc="order of the filter")
     f = ac.Parameter(unit="Hz", doc="cut-off frequency")
     normalized = ac.Option(True, doc="whether the amplitude at f is -3 dB")
     initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
@@ -83,7 +83,7 @@ class LowpassButterworth(SISO):
 
     ICON = icons.marked(icons.LOW_PASS, "n")
 
-    n = ac.Option(2, doc="order of the filter")
+    n = ac.Option(2, min=1, doc="order of the filter")
     f = ac.Parameter(unit="Hz", doc="cut-off frequency")
     initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
     x1_start = ac.Parameter(

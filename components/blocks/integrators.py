@@ -6,7 +6,7 @@ from typing import Any
 import acausal as ac
 from acausal.components import icons
 
-from .conventions import INIT, TRUE
+from .conventions import CROSSED, INIT, TRUE
 from .interfaces import SISO, PartialStart, PartialState
 
 __modelica__ = "Modelica.Blocks.Continuous"
@@ -70,6 +70,7 @@ class LimIntegrator(_Resettable):
     strict = ac.Option(False, doc="without effect")
 
     def equations(self) -> Iterator[Any]:
+        yield ac.Assert(self.outMin <= self.outMax, CROSSED)
         rate = self.k * self.u
         upwards = ac.where(self.y > self.outMax, ac.minimum(rate, 0), rate)
         yield ac.Eq(ac.der(self.y), ac.where(self.y < self.outMin, ac.maximum(rate, 0), upwards))

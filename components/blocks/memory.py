@@ -6,7 +6,7 @@ from typing import Any
 import acausal as ac
 from acausal.components import icons
 
-from .conventions import INSTANT, TRUE, changes, discrete_output, truth, truth_of
+from .conventions import CROSSED, INSTANT, TRUE, changes, discrete_output, truth, truth_of
 from .interfaces import SISO
 from .logical import Nor
 
@@ -125,6 +125,7 @@ class Hysteresis(_TwoPoint):
     u = ac.Input(doc="input signal")
 
     def equations(self) -> Iterator[Any]:
+        yield ac.Assert(self.uLow <= self.uHigh, CROSSED)
         yield self._switched(self.u > self.uHigh, self.u >= self.uLow)
 
 

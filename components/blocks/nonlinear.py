@@ -9,7 +9,7 @@ import acausal as ac
 from acausal.components import icons
 
 from .canonical import canonical_form
-from .conventions import INIT, LIMITER_HOMOTOPY, VARIABLE_LIMITER_HOMOTOPY
+from .conventions import CROSSED, INIT, LIMITER_HOMOTOPY, VARIABLE_LIMITER_HOMOTOPY
 from .interfaces import SISO, PartialStart
 
 __modelica__ = "Modelica.Blocks.Nonlinear"
@@ -25,7 +25,8 @@ class Limiter(SISO):
     strict = ac.Option(False, doc="without effect")
     homotopyType = ac.Option("Linear", choices=LIMITER_HOMOTOPY, doc="without effect")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
+        yield ac.Assert(self.uMin <= self.uMax, CROSSED)
         yield ac.Eq(self.y, ac.maximum(ac.minimum(self.u, self.uMax), self.uMin))
 
 
@@ -55,7 +56,8 @@ class DeadZone(SISO):
     uMax = ac.Parameter(doc="upper end of the dead zone")
     uMin = ac.Parameter(lambda self: -self.uMax, doc="lower end of the dead zone")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
+        yield ac.Assert(self.uMin <= self.uMax, CROSSED)
         beyond = ac.maximum(self.u - self.uMax, 0) + ac.minimum(self.u - self.uMin, 0)
         yield ac.Eq(self.y, beyond)
 
@@ -98,7 +100,7 @@ class PadeDelay(SISO):
     ICON = icons.block("delay")
 
     delayTime = ac.Parameter(unit="s", min=0, doc="delay of the output")
-    n = ac.Option(1, doc="order of the denominator")
+    n = ac.Option(1, min=1, doc="order of the denominator")
     m = ac.Option(None, doc="order of the numerator, at most n; n by default")
     balance = ac.Option(False, doc="without effect")
     x = ac.Variable(shape="n", doc="states in controller canonical form")
@@ -109,10 +111,9 @@ class PadeDelay(SISO):
         falling = accumulate(ratios, mul, initial=1.0)
         return [c * delay**k for k, c in enumerate(falling)][::-1]
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         m = self.n if self.m is None else self.m
-        if not 1 <= m <= self.n:
-            raise ac.DeclarationError(f"PadeDelay: m={m} must lie between 1 and n={self.n}")
+        yield ac.Assert(1 <= m <= self.n, f"m={m} must lie between 1 and n={self.n}")
         above = self._coefficients(m, self.n, -self.delayTime)
         below = self._coefficients(self.n, m, self.delayTime)
         yield from canonical_form(self.u, self.y, self.x, above, below)

@@ -64,7 +64,7 @@ class Adder(ac.Component):
 
     ICON = icons.block("+")
 
-    n = ac.Option(2, doc="number of bits")
+    n = ac.Option(2, min=1, doc="number of bits")
     a = DigitalInput(shape="n", doc="first number")
     b = DigitalInput(shape="n", doc="second number")
     c_in = DigitalInput(doc="carry")

@@ -28,7 +28,7 @@ class LogicToBoolean(ac.Component):
 
     ICON = icons.block("L → B")
 
-    n = ac.Option(1, doc="number of signals")
+    n = ac.Option(1, min=1, doc="number of signals")
     x = DigitalInput(shape="n", doc="digital signals")
     y = ac.Output(shape="n", doc="truth values, 1 or 0")
 
@@ -42,7 +42,7 @@ class BooleanToLogic(ac.Component):
 
     ICON = icons.block("B → L")
 
-    n = ac.Option(1, doc="number of signals")
+    n = ac.Option(1, min=1, doc="number of signals")
     x = ac.Input(shape="n", doc="truth values")
     y = DigitalOutput(shape="n", doc="digital signals")
 
@@ -56,7 +56,7 @@ class LogicToReal(ac.Component):
 
     ICON = icons.block("L → R")
 
-    n = ac.Option(1, doc="number of signals")
+    n = ac.Option(1, min=1, doc="number of signals")
     x = DigitalInput(shape="n", doc="digital signals")
     y = ac.Output(shape="n", doc="numbers")
     value_U = ac.Parameter(0.5, doc="for 'U'")
@@ -81,7 +81,7 @@ class LogicToReal(ac.Component):
 class _Stripped(ac.Component):
     """What strips strength off signals: 0 for a weak 0, 1 for a weak 1."""
 
-    n = ac.Option(1, doc="number of signals")
+    n = ac.Option(1, min=1, doc="number of signals")
     x = DigitalInput(shape="n", doc="digital signals")
     y = DigitalOutput(shape="n", doc="digital signals of fewer values")
 
@@ -128,7 +128,7 @@ class RealToLogic(ac.Component):
 
     ICON = icons.block("R → L")
 
-    n = ac.Option(1, doc="number of signals")
+    n = ac.Option(1, min=1, doc="number of signals")
     x = ac.Input(shape="n", doc="numbers")
     y = DigitalOutput(shape="n", doc="digital signals")
     upper_limit = ac.Parameter(1.0, doc="above it: upper_value")

@@ -57,7 +57,7 @@ class _Several(_Delayed):
 
     GATE: type[ac.Component]
 
-    n = ac.Option(2, doc="number of inputs")
+    n = ac.Option(2, min=1, doc="number of inputs")
     x = DigitalInput(shape="n", doc="inputs")
 
     def __init__(self, **modifiers: Any) -> None:

@@ -54,7 +54,7 @@ class Not(_Remembering):
 class _Gate(_Remembering):
     """A gate with ``n`` inputs."""
 
-    n = ac.Option(2, doc="number of inputs")
+    n = ac.Option(2, min=1, doc="number of inputs")
     x = DigitalInput(shape="n", doc="inputs")
 
     def _dominated(self, decides: Any, decided: int, otherwise: int) -> Any:

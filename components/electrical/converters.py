@@ -21,7 +21,7 @@ class AD_Converter(ac.Component):  # noqa: N801 (Modelica's name)
 
     ICON = icons.block("A/D")
 
-    N = ac.Option(8, doc="number of bits")
+    N = ac.Option(8, min=1, doc="number of bits")
     VRefHigh = ac.Parameter(unit="V", doc="voltage of the greatest number")
     VRefLow = ac.Parameter(unit="V", doc="voltage of zero")
     Rin = ac.Parameter(unit="Ohm", doc="resistance of the input")
@@ -61,7 +61,7 @@ class DA_Converter(ac.Component):  # noqa: N801
 
     ICON = icons.block("D/A")
 
-    N = ac.Option(8, doc="number of bits")
+    N = ac.Option(8, min=1, doc="number of bits")
     Vref = ac.Parameter(unit="V", doc="voltage of the greatest number")
     trig = DigitalInput(doc="trigger")
     x = DigitalInput(shape="N", doc="bits")

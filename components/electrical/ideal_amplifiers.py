@@ -164,8 +164,10 @@ class IdealizedOpAmpLimited(_Limited):
     def _first_mode(self) -> int:
         return {"UpperLimit": 1, "LowerLimit": -1}.get(self.homotopyType, 0)
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
+        if not self.useSupply:
+            yield ac.Assert(self.Vns < self.Vps, "the negative supply lies above the positive one")
         yield ac.Eq(self.v_in, self.in_p.v - self.in_n.v)
         yield ac.Eq(self.v_out, self.out.v)
         yield ac.Eq(self.p_in, self.in_p.v * self.in_p.i + self.in_n.v * self.in_n.i)

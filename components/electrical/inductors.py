@@ -74,8 +74,11 @@ class Transformer(TwoPort):
     M = ac.Parameter(unit="H", doc="coupling inductance")
     dv = ac.Variable(unit="V", doc="difference of the primary and the secondary voltage")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
+        yield ac.Assert(
+            self.M**2 < self.L1 * self.L2, "the coupling must not be perfect, or more than that"
+        )
         rate1, rate2 = ac.der(self.i1), ac.der(self.i2)
         yield ac.Eq(self.v1, self.L1 * rate1 + self.M * rate2)
         yield ac.Eq(self.dv, (self.L1 - self.M) * rate1 + (self.M - self.L2) * rate2)
@@ -90,7 +93,7 @@ class M_Transformer(ac.Component):  # noqa: N801 (Modelica's name)
 
     ICON = icons.marked(icons.INDUCTOR, "n")
 
-    N = ac.Option(3, doc="number of inductors")
+    N = ac.Option(3, min=1, doc="number of inductors")
     L = ac.Parameter(
         [1, 0.1, 0.2, 2, 0.3, 3], unit="H", shape=":", doc="inductances and coupling inductances"
     )

@@ -25,7 +25,7 @@ class _Line(ac.Component):
     p2 = Pin()
     p3 = Pin()
     heatPort = HeatPort_a(when="useHeatPort")
-    N = ac.Option(1, doc="number of segments")
+    N = ac.Option(1, min=1, doc="number of segments")
     length = ac.Parameter(unit="m", min=0, doc="length of the line")
     useHeatPort = ac.Option(False, doc="whether there is a heat port")
     T = ac.Parameter(293.15, unit="K", doc="temperature of the device without heat port")
@@ -213,8 +213,8 @@ class M_OLine(ac.Component):  # noqa: N801 (Modelica's name)
     ICON = icons.marked(icons.LINE, "n")
 
     length = ac.Parameter(0.1, unit="m", min=0, doc="length of the line")
-    N = ac.Option(5, doc="number of segments")
-    lines = ac.Option(4, doc="number of lines")
+    N = ac.Option(5, min=2, doc="number of segments")
+    lines = ac.Option(4, min=1, doc="number of lines")
     r = ac.Parameter(
         [4.76e5, 1.72e5, 1.72e5, 1.72e5], shape=":", unit="Ohm/m", doc="resistances per length"
     )
@@ -275,8 +275,6 @@ class M_OLine(ac.Component):  # noqa: N801 (Modelica's name)
 
     def _check(self) -> None:
         pairs = self.lines * (self.lines + 1) // 2
-        if self.N < 2:
-            raise ac.DeclarationError(f"M_OLine needs at least N=2 segments, got {self.N}")
         for name, count in (("r", self.lines), ("l", pairs), ("g", pairs), ("c", pairs)):
             if len(getattr(self, name)) != count:
                 raise ac.DeclarationError(

@@ -1,6 +1,7 @@
 """Pipes, valves, tanks and cylinders."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import acausal as ac
 from acausal.components import icons, nature
@@ -123,7 +124,7 @@ class OpenTank(SinglePortBottom):
     ``flowPort.p = pAmbient + m g / ATank``. ``level`` [m] and ``T`` [K] are preferred as states (Modelica
     leaves the choice among these and ``m``, ``H`` to the tool).
 
-    Modelica stops a simulation whose level leaves ``[0, hTank]``; here it goes on.
+    Modelica stops a simulation whose level leaves ``[0, hTank]``; here it goes on, with a warning.
     """
 
     ICON = icons.TANK
@@ -140,9 +141,17 @@ class OpenTank(SinglePortBottom):
     level = ac.Output(unit="m", state="prefer", doc="level of the medium")
     TTank = ac.Output(unit="K", start=293.15, nominal=300.0, doc="temperature of the medium")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
-        port = self.flowPort
+        port, room = self.flowPort, 1e-6 * self.hTank
+        yield ac.Assert(
+            self.level >= -room, "the tank has run empty, and goes on below its bottom", "warning"
+        )
+        yield ac.Assert(
+            self.level <= self.hTank + room,
+            "the tank overflows, and goes on above its rim",
+            "warning",
+        )
         m = self.rho * self.ATank * self.level
         yield ac.Eq(self.TTank, self.T)
         yield ac.Eq(self.m, m)
@@ -162,7 +171,7 @@ class Cylinder(SinglePortLeft, PartialElementaryOneFlangeAndSupport2):
 
     ``flowPort.p A = -flange.f``; mass ``m = rho A s`` with ``der(m) = flowPort.m_flow``, enthalpy ``H = m h``
     with ``der(H) = flowPort.H_flow``. Modelica stops a simulation whose piston leaves ``(0, L]``; here it
-    goes on, but its temperature is undefined at ``s = 0``.
+    goes on, with a warning, but its temperature is undefined at ``s = 0``.
     """
 
     ICON = icons.CYLINDER
@@ -173,9 +182,14 @@ class Cylinder(SinglePortLeft, PartialElementaryOneFlangeAndSupport2):
     m = ac.Variable(unit="kg", doc="mass of the medium")
     H = ac.Variable(unit="J", nominal=1e5, doc="enthalpy of the medium")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
         port = self.flowPort
+        room = 1e-6 * self.L
+        yield ac.Assert(
+            self.s >= -room, "the piston has passed the bottom of the cylinder", "warning"
+        )
+        yield ac.Assert(self.s <= self.L + room, "the piston has left the cylinder", "warning")
         m = self.rho * self.A * self.s
         yield ac.Eq(self.f, self.flange.f)
         yield ac.Eq(port.p * self.A, -self.f)

@@ -1,6 +1,7 @@
 """Tanks, resistances, orifices and weirs."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import acausal as ac
 from acausal.components import icons
@@ -28,7 +29,10 @@ class OpenTank(ac.Component):
     port = FluidPort()
     topPort = FluidPort()
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
+        yield ac.Assert(
+            self.level >= -1e-6, "the tank has run empty, and goes on below its bottom", "warning"
+        )
         rate = self.rho * self.crossArea * ac.der(self.level)
         yield ac.Eq(rate, self.port.m_flow + self.topPort.m_flow)
         yield ac.Eq(self.port.p, self.p_ambient + self.rho * self.g * self.level)

@@ -125,7 +125,7 @@ class Tube(_Filled):
     length = ac.Parameter(unit="m", min=0, doc="length")
     diameter = ac.Parameter(unit="m", min=0, doc="inner diameter")
     roughness = ac.Parameter(2.5e-5, unit="m", min=0, doc="height of the wall's unevenness")
-    n = ac.Option(1, doc="number of pieces")
+    n = ac.Option(1, min=1, doc="number of pieces")
     inertia = ac.Option(True, doc="whether the liquid's mass counts")
     port_a = FluidPort_a()
     port_b = FluidPort_b()

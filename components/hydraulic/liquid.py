@@ -33,6 +33,13 @@ class Liquid:
     n: float = 1.4
     p_ambient: float = 101325.0
 
+    def __post_init__(self) -> None:
+        positive = ("density", "bulk_modulus", "viscosity", "n", "p_ambient")
+        wrong = next((name for name in positive if not getattr(self, name) > 0), None)
+        if wrong or not 0 <= self.air < 1:
+            name, range_ = (wrong, "above zero") if wrong else ("air", "0 to 1, without 1")
+            raise ac.DeclarationError(f"Liquid.{name}={getattr(self, name)} must be {range_}")
+
     def density_at(self, p: Any) -> Any:
         """The density at a pressure above that of the ambience."""
         volume = (1 - self.air) * ac.exp(-p / self.bulk_modulus)

@@ -46,8 +46,10 @@ class StaticPipe(PartialTwoPortTransport):
     g = ac.Parameter(g_n, unit="m/s2", min=0, doc="gravity")
     v = ac.Variable(unit="m/s", doc="mean velocity from a to b")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
+        yield ac.Assert(self.diameter > 0, "a pipe without width carries nothing")
+        yield ac.Assert(self.nParallel > 0, "no pipe is there")
         area = self.nParallel * ac.pi * self.diameter**2 / 4
         yield ac.Eq(self.m_flow, self.rho * area * self.v)
         drop = flow.wall_friction(

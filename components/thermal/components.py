@@ -134,7 +134,7 @@ class ThermalCollector(_Collector):
 
     ICON = icons.TEE
 
-    m = ac.Option(3, doc="number of heat ports that are collected")
+    m = ac.Option(3, min=1, doc="number of heat ports that are collected")
 
     def __init__(self, *, m: int = 3, **modifiers: Any) -> None:
         super().__init__(m, m=m, **modifiers)

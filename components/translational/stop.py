@@ -52,8 +52,9 @@ class MassWithStopAndFriction(
     f_stop = ac.Variable(unit="N", when="smooth", doc="force of the stops, positive at smax")
     stopped = ac.Variable(doc="-1 at smin, 1 at smax, else 0")
 
-    def equations(self) -> Iterator[ac.Eq | ac.When]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
+        yield ac.Assert(self.smin < self.smax, "the left stop lies to the right of the right one")
         yield ac.Eq(self.v, ac.der(self.s))
         yield ac.Eq(self.a, ac.der(self.v))
         yield ac.Eq(self.lossPower, self.f * self.v)

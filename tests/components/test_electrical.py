@@ -343,7 +343,7 @@ def test_a_transformer_needs_all_its_inductances():
 def test_lines_need_all_their_values():
     with pytest.raises(ac.DeclarationError, match="lines=2 needs 2 values r, got 4"):
         el.M_OLine(lines=2)
-    with pytest.raises(ac.DeclarationError, match="at least N=2"):
+    with pytest.raises(ac.DeclarationError, match="N=1 is out of range: at least 2"):
         el.M_OLine(N=1)
 
 

@@ -271,6 +271,8 @@ def test_promises_are_kept_beside_a_linear_law(promises: dict) -> None:
     assert kept_promises(fresh) <= kept_promises(net)
     low, high = (float(net(*([v] * shape.every))) for v in (15.0, 25.0))
     assert (high - low) / 10 == pytest.approx(sum(slope), abs=2.5)
+    if shape.has_constant:  # that of the linear law stays, too
+        assert float(net(*centre)) == pytest.approx(sum(slope) * 20 - 2, abs=2.5)
 
 
 @pytest.mark.slow

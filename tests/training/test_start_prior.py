@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
 import acausal as ac
 from acausal.components import translational as tl
 from acausal.data import noise_level
+from acausal.training.objective.start_prior import start_prior
 from tests.support.oscillator import force, plain, record
 
 QUIET = {"strategy": "gauss_newton", "solver": "rk4", "progress": False}
@@ -139,3 +142,64 @@ def test_as_many_samples_as_numbers_are_no_proof() -> None:
     data = ac.Data(t, {"u": np.ones(3), "x": np.array([0.0, 1.3, 2.1])})
     fit = ac.fit(ac.compile(Lag()), data, ["x"], modifiers=["K", "T"], **QUIET)
     assert "3 samples are explained by as many numbers" in str(fit)
+
+
+class Behind(ac.Component):
+    """A state that nobody measures behind a law of it: where it starts decides what the law is at which value."""
+
+    u = ac.Input()
+    z = ac.Variable(start=0.9, fixed=True)
+    y = ac.Variable()
+    law = ac.Module(ac.networks.Law())
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.z), -self.u)
+        yield ac.Eq(self.y, self.law(self.z))
+
+
+def behind(start: float, begin: float = 0.0) -> ac.Data:
+    t = np.linspace(0, 20, 201)
+    u = np.where(t % 6 < 3, 0.05, -0.01)
+    z = start - np.concatenate([[0.0], np.cumsum((u[1:] + u[:-1]) / 2 * np.diff(t))])
+    noise = 0.003 * np.random.default_rng(2).standard_normal(len(t))
+    return ac.Data(t + begin, {"u": u, "y": 3 + z - 0.4 * np.exp(-6 * z) + noise})
+
+
+def test_a_start_that_the_model_fixes_is_exact() -> None:
+    fit = ac.fit(ac.compile(Behind()), behind(0.9), ["y"], progress=False)
+    assert fit.x0["z"] == 0.9
+    assert fit.trained.starts is None
+    z = np.linspace(0.55, 0.9, 8)
+    np.testing.assert_allclose(
+        [fit.params["law"](v) for v in z], 3 + z - 0.4 * np.exp(-6 * z), atol=0.01
+    )
+
+
+def test_it_is_open_where_a_record_begins_later() -> None:
+    system = ac.compile(Behind())
+    for own, begins in ((behind(0.9), 0), (behind(0.9, 5.0), 1)):
+        prior = start_prior(system, {"one": own}, "auto")
+        assert (prior is not None) == bool(begins)
+
+
+class Fading(ac.Component):
+    """A hidden state feeds a measured one."""
+
+    hidden = ac.Variable(start=0.0, fixed=True)
+    y = ac.Variable(start=0.0)
+    tau = ac.Parameter(1.0, min=0)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(3 * ac.der(self.hidden), -self.hidden)
+        yield ac.Eq(self.tau * ac.der(self.y), self.hidden - self.y)
+
+
+def test_a_fixed_start_that_the_record_does_not_have_is_named() -> None:
+    t = np.linspace(0, 10, 101)
+    y = 2 * 3 / (3 - 1.2) * (np.exp(-t / 3) - np.exp(-t / 1.2))
+    y += 0.01 * np.random.default_rng(1).standard_normal(len(t))
+    with pytest.warns(UserWarning, match="no better"):
+        fit = ac.fit(
+            ac.compile(Fading()), ac.Data(t, {"y": y}), ["y"], modifiers=["tau"], progress=False
+        )
+    assert "hidden did not start where the model says" in str(fit.verdict)

@@ -9,7 +9,7 @@ Individual Trends, Econometrica 1 (1933), 387-401).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import jax
 import jax.numpy as jnp
@@ -24,6 +24,7 @@ from acausal.training.objective.input_gains import (
     with_gain,
     with_offset,
 )
+from acausal.training.objective.start_prior import StartPrior
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.changes import changes
 from acausal.training.uncertainty.laplace import by_record, residuals_and_jacobian
@@ -92,6 +93,18 @@ class Gain(Cause):
         return to_check(1 + size)
 
 
+class Start(Cause):
+    """A state that is not measured, and did not start where it was taken to."""
+
+    def sentence(self, size: float) -> str:
+        """Which one."""
+        return f"{self.names[0]} did not start where the model says"
+
+    def remedy(self, size: float) -> str:
+        """How to leave it open."""
+        return "leave it open: x0='fit'"
+
+
 @dataclass(frozen=True, eq=False)
 class Offset(Cause):
     """An input or a target that counts from another zero; its effect is that of a unit more.
@@ -120,7 +133,7 @@ def likely_causes(fit: TrainedModel) -> str | None:
         return None  # a network that is never called takes nothing, and has no place to bump
     change = changes(problem, fit.trained, fit.arguments)
     left, jacobian = residuals_and_jacobian(problem, change)
-    causes = [*_parameters(fit), *_inputs(fit), *_offsets(fit), *_delays(fit)]
+    causes = [*_parameters(fit), *_inputs(fit), *_offsets(fit), *_delays(fit), *_starts(fit)]
     effects = np.stack([left, *(cause.effect for cause in causes)], axis=-1)
     counts = np.asarray(problem.records.weight) > 0
     size = np.sqrt(np.sum(left**2, axis=0) / np.maximum(np.sum(counts, axis=0), 1))
@@ -203,6 +216,26 @@ def _offsets(fit: TrainedModel) -> Iterator[Cause]:
         effect = np.zeros(shape)
         effect[:, i] = 1
         yield Offset((name,), effect, np.inf, unit[name])
+
+
+def _starts(fit: TrainedModel) -> Iterator[Cause]:
+    """The states that are taken to start as the model does."""
+    problem, trainable = fit.problem, fit.trained
+    known = np.isfinite(np.asarray(problem.first_states.given))
+    scale = 0 * known if problem.start_prior is None else np.asarray(problem.start_prior.scale)
+    held = np.flatnonzero((~known & (scale == 0)).any(axis=0))
+    names = [problem.system.states[i] for i in held]
+    moved = np.where(~known & (scale == 0), problem.system.nominal, scale)
+    freed = replace(problem, start_prior=StartPrior(jnp.asarray(moved)))
+    params = problem.assemble(trainable)
+    found = jnp.zeros(moved.shape) if trainable.starts is None else trainable.starts
+
+    def predicted(step: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+        starts = found.at[:, held].add(jnp.where((~known & (scale == 0))[:, held], step, 0.0))
+        return freed.predict(replace(trainable, starts=starts), params)
+
+    for name, effect in zip(names, _effects(predicted, len(names)), strict=True):
+        yield Start((name,), effect, np.inf)
 
 
 def _effects(predicted: Callable[[Array], Array], n: int) -> Float[np.ndarray, "n N n_targets"]:

@@ -233,7 +233,9 @@ def _left(fit: TrainedModel) -> Iterator[str]:
 
 def _constants(fit: TrainedModel) -> Iterator[str]:
     """What would determine the constants that nothing determines."""
+    prior = fit.problem.start_prior
     missing = np.isnan(np.asarray(fit.problem.first_states.given))
+    missing &= False if prior is None else np.asarray(prior.scale) > 0
     unknown = [n for n, column in zip(fit.system.states, missing.T, strict=True) if column.any()]
     remedy = (
         f"say where {listing(unknown)} starts (x0=...)"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -11,6 +12,9 @@ from jaxtyping import Array, Float
 
 from acausal.data import Data, noise_level
 from acausal.training.objective.initial_state import InitialState, by_record
+
+if TYPE_CHECKING:
+    from acausal.system import System
 
 EXACT = 1e-5
 """A start is taken as it is measured where the noise is less than this part of the state's deviation."""
@@ -36,21 +40,24 @@ class StartPrior(eqx.Module):
         return jnp.zeros(()) if moves is None else 0.5 * jnp.sum(moves**2)
 
 
-def start_prior(
-    states: tuple[str, ...], data: Mapping[str, Data], x0: InitialState
-) -> StartPrior | None:
+def start_prior(system: System, data: Mapping[str, Data], x0: InitialState) -> StartPrior | None:
     """What is known of the starts of records; NaN for states that are not measured; ``None`` where all are exact.
 
-    ``x0="auto"`` takes what is measured within its noise. Values by name are exact, and so is what is measured beside
-    them.
+    ``x0="auto"`` takes what is measured within its noise, and starts that the model fixes, of states that are not
+    measured, as exact in records that begin where a simulation does, at time 0. Values by name are exact, and so is
+    what is measured beside them.
     """
+    states = system.states
+    fixed = {n for n, own in zip(states, system.initializer.conditions.fixed, strict=False) if own}
 
     def scale(record: Data, name: str, given: Mapping[str, float] | None) -> float:
         signal = record.signals.get(name)
         if given is not None and name in given:
             return 0.0
-        if signal is None or np.isnan(signal[0]):
-            return np.nan if signal is None or np.isnan(signal).all() else float(np.nanstd(signal))
+        if signal is None or np.isnan(signal).all():
+            return 0.0 if name in fixed and record.time[0] == 0 else np.nan
+        if np.isnan(signal[0]):
+            return float(np.nanstd(signal))
         with np.errstate(over="ignore"):
             noise = noise_level([np.asarray(signal)], [np.asarray(record.time)])
             deviation = np.nanstd(signal)
