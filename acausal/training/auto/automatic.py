@@ -45,6 +45,9 @@ EXPLAINS = 0.5
 ALMOST = 0.2
 """Where nothing can begin within records, it is sought over ever shorter beginnings until it leaves less than this."""
 
+FEWEST = 12
+"""A start that leaves the records sooner is sought over so many first samples."""
+
 PIECE, PIECES = 25, 60
 """Samples of the pieces of records in which it is sought where it explains nothing; and how many pieces."""
 
@@ -213,7 +216,10 @@ def _begin(
         whole = _start(problem_of(part, trial), shapes)
         if begun is None or whole.loss < 0.8 * begun.start.loss:
             explains = bool(whole.loss < EXPLAINS * np.sqrt(len(whole.problem.targets)))
-            begun = _Begin(trial, whole, explains, max(2 * PIECE, rows // 16))
+            first = max(2 * PIECE, rows // 16)
+            if not (explains or shapes):
+                first = min(first, _followed(whole))
+            begun = _Begin(trial, whole, explains, first)
         if begun.explains:
             break
         pieces, begins = _pieces(part, whole.problem) if shapes else ({}, {})
@@ -237,6 +243,22 @@ def _begin(
         if short.loss < ALMOST * np.sqrt(len(short.problem.targets)):
             break
     return begun
+
+
+def _followed(start: LinearStart) -> int:
+    """How many first samples a start follows in each record, before it leaves more than it may; `FEWEST` at least."""
+    problem, records = start.problem, start.problem.records
+    with np.errstate(all="ignore"):
+        off = np.asarray(problem.simulate(start.trainable).y) - np.asarray(records.y)
+        squares = np.where(np.asarray(records.weight) > 0, off / np.asarray(records.sigma), 0.0) ** 2
+    of_all = squares.sum(axis=1)
+    followed = FEWEST
+    for k in range(records.count):
+        own = of_all[records.rows_of(k)]
+        mean = np.cumsum(own) / np.arange(1, len(own) + 1)
+        lost = ~(mean < EXPLAINS**2 * squares.shape[1])
+        followed = max(followed, int(np.argmax(np.append(lost, True))))
+    return followed
 
 
 def _find_misread(

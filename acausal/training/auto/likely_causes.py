@@ -39,6 +39,9 @@ FAR = float(np.log(5))
 MOST = 2
 """So many causes of a kind are named."""
 
+MOST_LATE = 0.25
+"""Nothing comes later than by this part of a record."""
+
 AT_ONCE = 16
 """Parameters whose effects are computed at once."""
 
@@ -267,6 +270,7 @@ def _delays(fit: TrainedModel) -> Iterator[Cause]:
         effect = np.zeros_like(rate)
         effect[:, some] = -rate[:, some]
         fastest = np.max(np.std(rate[:, some], axis=0) / np.asarray(records.sigma)[some])
+        longest = MOST_LATE * max(float(np.ptp(own)) for own in np.split(t, ends))
         if fastest > 0:
             names = tuple(problem.targets[i] for i in some)
-            yield Late(names, effect, float(1 / fastest))
+            yield Late(names, effect, min(float(1 / fastest), longest))
