@@ -83,8 +83,8 @@ def run(args: Namespace, out: CommandOutput) -> None:
     ]
     out.table(("record", "target", "rms error", "unit", "normalized", "within band"), rows)
     for p in found.values():
-        if p.outside:
-            out.warn(p.outside)
+        for remark in p.remarks:
+            out.warn(remark)
     out.wrote(files)
     out.result(
         {

@@ -14,10 +14,11 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import compiled, is_number, levenberg_marquardt, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, known_name, listing, shown, warn
+from acausal.errors import DataError, known_name, listing, percent, shown, warn
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import by_name
 from acausal.simulation import Adaptive
+from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity_of_each
 from acausal.training.conformal import Conformal
 from acausal.training.objective.held_out import over
 from acausal.training.objective.initial_state import InitialState, by_record, check_records
@@ -135,6 +136,8 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
     made = of_records(problem, trainable, simulated)
     units = {n: system.unit(n) for n in targets}
 
+    sensitive = sensitivity_of_each(problem, trainable, simulated)
+
     def one(k: int, record: RecordFit) -> Prediction:
         rows = problem.records.rows_of(k)
         bands = {
@@ -146,12 +149,24 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
             **every,
             bands=bands,
             outside=out_of_range(record, fit),
+            apart=_apart(record.name, sensitive[k]),
             found=found_starts(problem, slice(k, k + 1)),
             units=units,
         )
 
     named = zip(some.records, made.values(), strict=True)
     return {n: one(k, replace(r, name=n)) for k, (n, r) in enumerate(named)}
+
+
+def _apart(name: str, sensitive: float) -> str:
+    """See `Prediction`."""
+    if sensitive <= SENSITIVE:
+        return ""
+    return (
+        f"Starts that are off by {percent(OFF)} change '{name}' by {percent(OFF * sensitive)}: the model is unstable "
+        "or chaotic, and one simulation does not follow it. Predict shorter parts (data.between), or follow it by what is "
+        "measured: ac.estimate."
+    )
 
 
 def _in_fine_steps(

@@ -40,12 +40,15 @@ class Prediction(RecordFit):
         bands: by target, the prediction over time with its standard deviation: that of the laws and parameters, of what
             was found for this record, and of the noise. With conformal bands the bounds are theirs.
         outside: a sentence on what leaves the training's range, where the model extrapolates; empty where nothing does.
+        apart: a sentence on a model so sensitive to its start that no single simulation follows such a record; empty
+            for others.
         found: a clause on the initial states that were found from the record's own targets; empty without any.
         units: of the targets.
     """
 
     bands: Mapping[str, Band]
     outside: str
+    apart: str
     found: str
     units: Mapping[str, str]
 
@@ -100,8 +103,12 @@ class Prediction(RecordFit):
         lines += [f"  x0 found: {self.found}"] if self.found else []
         own = ", ".join(f"{n} {value:.5g}" for n, value in self.parameters.items())
         lines += [f"  its own: {own}"] if own else []
-        lines += [f"  {self.outside}"] if self.outside else []
-        return "\n".join(lines)
+        return "\n".join([*lines, *(f"  {one}" for one in self.remarks)])
+
+    @property
+    def remarks(self) -> list[str]:
+        """What is to be said of it, a sentence each."""
+        return [one for one in (self.outside, self.apart) if one]
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +165,7 @@ class Predictions(Mapping[str, Prediction]):
             [n, *(f"{v:.4g}" if isinstance(v, float) else v for v in row.values())]
             for n, row in rows.items()
         ]
-        remarks = [p.outside for p in self.records.values() if p.outside]
+        remarks = [one for p in self.records.values() for one in p.remarks]
         remarks += [f"'{n}': x0 found, {p.found}." for n, p in self.records.items() if p.found]
         units = next(iter(self.records.values())).units
         bands = {n: p.bands for n, p in self.records.items()}

@@ -250,7 +250,9 @@ def _followed(start: LinearStart) -> int:
     problem, records = start.problem, start.problem.records
     with np.errstate(all="ignore"):
         off = np.asarray(problem.simulate(start.trainable).y) - np.asarray(records.y)
-        squares = np.where(np.asarray(records.weight) > 0, off / np.asarray(records.sigma), 0.0) ** 2
+        squares = (
+            np.where(np.asarray(records.weight) > 0, off / np.asarray(records.sigma), 0.0) ** 2
+        )
     of_all = squares.sum(axis=1)
     followed = FEWEST
     for k in range(records.count):

@@ -41,6 +41,19 @@ def sensitivity(problem: Problem, trainable: Trainable, simulated: Simulated) ->
     return change / OFF / float(np.sqrt(len(problem.targets)))
 
 
+def sensitivity_of_each(
+    problem: Problem, trainable: Trainable, simulated: Simulated
+) -> list[float]:
+    """The same of each record alone."""
+    moved = _moved(problem, trainable, simulated)
+    if moved is None:
+        return [0.0] * problem.records.count
+    with np.errstate(all="ignore"):
+        change = (np.asarray(moved.y) - np.asarray(simulated.y)) / np.asarray(problem.records.sigma)
+    rows = [problem.records.rows_of(k) for k in range(problem.records.count)]
+    return [float(np.sqrt(np.mean(change[own] ** 2))) / OFF for own in rows]
+
+
 def is_sensitive(problem: Problem, trainable: Trainable, simulated: Simulated) -> bool:
     """Whether `sensitivity` is so large that no steps and no law follow a whole record."""
     return sensitivity(problem, trainable, simulated) > SENSITIVE

@@ -37,6 +37,9 @@ range about their median."""
 FAR_START = 2.0
 """A start that is found further off than so many standard deviations of its prior contradicts it."""
 
+ODD = 1.4
+"""A record that leaves so many times what any other does is named."""
+
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
 
@@ -96,7 +99,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     loose = [*_all_taken(problem), *_far_starts(fit), *(_hardly_determined(fit) if good else ())]
     good = good and not loose and (share <= SMALL or not left)
     suspect = list(outliers(problem, simulated))
-    others = [*suspect, *at_limits(problem, simulated), *loose, *left]
+    of_records = [] if good else list(_odd_records(problem, simulated))
+    others = [*of_records, *suspect, *at_limits(problem, simulated), *loose, *left]
     if (
         not (down or share <= SMALL)
         and np.isfinite(fit.loss)
@@ -145,6 +149,24 @@ def explains(problem: Problem, loss: float, noise: float) -> bool:
         return True
     small = loss <= SMALL * np.sqrt(len(problem.targets))
     return bool(np.isfinite(loss) and (loss <= DOWN_TO * noise or small))
+
+
+def _odd_records(problem: Problem, simulated: Simulated) -> Iterator[str]:
+    """A record that is explained far worse than the others."""
+    records = problem.records
+    if records.count < 2:
+        return
+    with np.errstate(all="ignore"):
+        off = (np.asarray(simulated.y) - np.asarray(records.y)) / np.asarray(records.sigma)
+    squares = np.where(np.asarray(records.weight) > 0, off**2, np.nan)
+    left = [float(np.sqrt(np.nanmean(squares[records.rows_of(k)]))) for k in range(records.count)]
+    worst = int(np.argmax(left))
+    others = max(x for k, x in enumerate(left) if k != worst)
+    if left[worst] > ODD * others:
+        yield (
+            f"Of '{records.names[worst]}' it leaves {percent(left[worst])}, of each other record {percent(others)} at "
+            "most: look at that one first (a sign, a unit, another load)."
+        )
 
 
 def _all_taken(problem: Problem) -> Iterator[str]:

@@ -92,7 +92,7 @@ def confidence(
     blocks = by_record(change, effects)
     onward = change.deviations * move(blocks, noise.relative(left).ravel())[0]
     error = noise.relative(_step_error(problem, trainable))
-    step_move = move(blocks, error.ravel())[1]
+    step_move = move(blocks, error.ravel())[1] if np.isfinite(error).all() else np.inf
     rows = _earlier(change)
     earlier = [RecordJacobian(rows[:, change.common], np.zeros((len(rows), len(change.of_record))))]
     samples = noise.samples + len(rows)
