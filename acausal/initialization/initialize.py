@@ -278,7 +278,8 @@ class Initializer(LeavesCaches):
                 if node in self.reduced.discrete:
                     raise DataError(
                         f"x0: '{name}' is no state but a discrete variable, which events change; give its start where "
-                        f"its component is made: {name.rpartition('.')[2]}=ac.Start(...)"
+                        f"its component is made: {name.rpartition('.')[2]}=ac.Start(...), also by a parameter, which "
+                        "params= changes"
                     )
                 state = self.names[places[0]] if places else name
                 value = -value if sign < 0 and is_number(value) else value

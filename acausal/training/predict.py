@@ -164,8 +164,8 @@ def _apart(name: str, sensitive: float) -> str:
         return ""
     return (
         f"Starts that are off by {percent(OFF)} change '{name}' by {percent(OFF * sensitive)}: the model is unstable "
-        "or chaotic, and one simulation does not follow it. Predict shorter parts (data.between), or follow it by what is "
-        "measured: ac.estimate."
+        "or chaotic, and one simulation does not follow it. Predict shorter parts (data.between), or follow it by what "
+        "is measured: ac.estimate."
     )
 
 

@@ -18,16 +18,21 @@ FOLLOWS = 10.0
 
 
 def found_starts(problem: Problem, records: slice = slice(None)) -> str:
-    """A clause on the states whose starts were found for some records, and near what; empty where there are none."""
+    """A clause on the states whose starts were found for some records, and near what; empty where there are none.
+
+    It says, too, which discrete variables begin as the model says, where these decide on what follows.
+    """
+    modes = listing(problem.system.remembered, 3)
+    begins = [f"{modes} as the model starts"] if modes else []
     if problem.start_prior is None:
-        return ""
+        return "".join(begins)
     found = np.asarray(problem.start_prior.scale)[records] > 0
     measured = np.isfinite(np.asarray(problem.first_states.given)[records])
     clauses: list[str] = []
     for rows, where in ((found & measured, "measured"), (found & ~measured, "model's")):
         states = [problem.system.states[i] for i in np.unique(np.nonzero(rows)[1])]
         clauses += [f"{listing(states)} near the {where} start"] if states else []
-    return "; ".join(clauses)
+    return "; ".join([*clauses, *begins])
 
 
 def with_sizes(problem: Problem, trainable: Trainable | None = None) -> Problem:
