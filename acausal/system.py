@@ -47,6 +47,7 @@ from acausal.errors import (
     DeclarationError,
     ModelError,
     known_name,
+    listing,
     nearest,
     need_flag,
     shown,
@@ -264,6 +265,16 @@ class System(LeavesCaches):
                 found[name] = places[node], sign
         return found
 
+    @cached_property
+    def wholes(self) -> dict[str, str]:
+        """Names of the discrete variables that are whole numbers, or 1 or 0, with their kinds."""
+        layout = self.flat.layout
+        every = {
+            n: layout.variable_declaration(layout.find_variable(n) or 0) for n in self.discrete
+        }
+        kinds = {n: getattr(declared, "kind", "real") for n, declared in every.items()}
+        return {n: kind for n, kind in kinds.items() if kind != "real"}
+
     def describe_discrete(self, place: int) -> str:
         """A discrete variable by its place in ``d``: its name, or the condition or clock that it stands for."""
         node = int(self.reduced.discrete[place])
@@ -272,6 +283,17 @@ class System(LeavesCaches):
             return name
         assert self.events is not None
         return self.events.describe(place) or name
+
+    def warn_of_sampled(self, what: str) -> None:
+        """Warn where sampled variables are held in what is derived from the model at one instant."""
+        places = () if self.events is None else self.events.sampled
+        names = [self.describe_discrete(place) for place in places]
+        if names:
+            changes, held = ("changes", "is") if len(names) == 1 else ("change", "are")
+            warn(
+                f"{what}: {listing(names, 6)} {changes} at the instants of clocks, and {held} held here as at the "
+                "start: nothing of that law is in it. Make them inputs (ac.compile(model, inputs=[...])), or simulate."
+            )
 
     def is_discrete(self, name: str) -> bool:
         """Whether a variable changes at events only: a discrete one, or one that equals such."""

@@ -420,7 +420,7 @@ def linearize(
     need_compiled(system, "linearize")
     outputs = names_in(outputs, "outputs")
     at = point_of(system, x, inputs, params, t)
-
+    system.warn_of_sampled("linearize")
     at = at._replace(t=array(at.t))  # one program for all times
     (a, b), (c, d) = _matrices(system, outputs, at)
     n = system.reduced.n_independent

@@ -109,5 +109,6 @@ def operating_point(
     need_compiled(system, "operating_point")
     check_time(t)
     packed, u = system.pack(params), system.inputs_at(t, inputs)
+    system.warn_of_sampled("operating_point")
     found = system.initialize(packed, x0, inputs=u, t0=t, steady=steady)
     return OperatingPoint(system.modes(system.values(t, found.x, u, packed)), system, found)

@@ -12,7 +12,7 @@ from functools import cached_property, partial
 import numpy as np
 import sympy as sp
 
-from acausal.codegen import DISCRETE, ArrayFormula, ParameterLayout, Program, formula_of
+from acausal.codegen import DISCRETE, INPUTS, ArrayFormula, ParameterLayout, Program, formula_of
 from acausal.flattening import GuardGroup, Integers, LeavesCaches, UpdateGroup
 from acausal.modeling import time
 from acausal.structure import ReducedModel, dependence_pattern
@@ -102,6 +102,21 @@ class Events(LeavesCaches):
             return any(DISCRETE in self.program.instructions[i].sources for i in needed)
 
         return sum(int((~self.exact[u.places]).sum()) for u in self.updates if reads(u))
+
+    @cached_property
+    def sampled(self) -> tuple[int, ...]:
+        """Places of discrete variables that take what varies at the instants of clocks, as sampled controllers do."""
+        takes: set[int] = set()
+        reads: list[tuple[int, int]] = []
+        for update in self.updates:
+            now = self.program.in_copy(update.formula.sources, 0)
+            if any(source not in (INPUTS, DISCRETE) for source in now):
+                takes |= set(update.places.tolist())
+            reads += _reads(update, DISCRETE, self.program)
+        ticking = set(np.flatnonzero(self.ticks).tolist())
+        while more := {place for place, read in reads if read in ticking} - ticking:
+            ticking |= more
+        return tuple(sorted(takes & ticking))
 
     def _each(self, flags: Sequence[bool]) -> np.ndarray:
         return np.repeat(np.asarray(flags, bool), [g.formula.size for g in self.guards])

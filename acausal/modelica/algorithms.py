@@ -309,8 +309,9 @@ class Algorithms(Evaluator):
         try:
             return str(self.value(text))
         except ModelicaError:
-            joined = isinstance(text, OperatorExpression) and text.operator == "+"
-            return "".join(map(self._shown, text.operands)) if joined else "..."
+            if isinstance(text, OperatorExpression) and text.operator == "+":
+                return "".join(map(self._shown, text.operands))
+            return "..."
 
 
 @lru_cache(maxsize=50_000)

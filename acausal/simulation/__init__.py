@@ -42,6 +42,7 @@ from acausal.simulation.solution import Solution as Solution
 from acausal.simulation.solvers import (
     BDF as BDF,
     EXPLICIT as EXPLICIT,
+    RK4 as RK4,
     STABILITY_LIMIT as STABILITY_LIMIT,
     Scheme as Scheme,
     Solver as Solver,

@@ -181,6 +181,8 @@ def simulate(
         _SIMULATED.add(system)
         at = system.blank(packed, start, u_start)._replace(t=start)
         in_steps.begin_to_compile(Run(system, at, functions, end))
+    if steady:
+        system.warn_of_sampled("x0='steady'")
     values = system.start_values(packed, None if steady else x0, u_start, start, steady=steady)
     run = Run(system, values, functions, end)
     run.check_start()
@@ -196,6 +198,7 @@ def simulate(
         _warn_of_few_points(solution, end - start)
     _warn_of_another_solution(solution)
     _check_assertions(solution)
+    _warn_of_fractions(solution)
     return solution
 
 
@@ -236,6 +239,23 @@ def _warn_of_another_solution(solution: Solution) -> None:
             f"'{names[row]}' jumps from {positions[row, k]:.4g} to {positions[row, k + 1]:.4g} between t = "
             f"{t[k]:.4g} and {t[k + 1]:.4g} s: its equations have several solutions, and there it is another one. "
             'Give ac.Start values nearer to the motion, or choose other states (stateSelect="always").'
+        )
+
+
+def _warn_of_fractions(solution: Solution) -> None:
+    """Warn where a discrete variable that was declared as a whole number, or as 1 or 0, is none."""
+    system = solution.system
+    if not system.wholes or known((solution.t, solution.d)) is None or solution.t.ndim != 1:
+        return
+    names, kinds = zip(*system.wholes.items(), strict=True)
+    values = np.abs(np.asarray(solution.d)[:, [system.discrete[n][0] for n in names]])
+    truth = np.asarray(kinds) == "bool"
+    wrong = (values != np.round(values)) | (truth & (values > 1))
+    if wrong.any():
+        row, i = np.argwhere(wrong)[0]
+        warn(
+            f"'{names[i]}' is declared with kind='{kinds[i]}', but is {values[row, i]:g} at t = "
+            f"{float(solution.t[row]):g} s: give it {'1 or 0' if truth[i] else 'whole numbers'}, or leave kind out."
         )
 
 

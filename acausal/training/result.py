@@ -67,8 +67,8 @@ class Fit(TrainedModel):
         problem, trained: the training problem and what was trained, for further questions.
         settings: how it was trained: the seed and the options, as texts by name.
         stages: what the training did, one part after the other, and the loss that each reached.
-        step_error: how much twice as many steps change the predictions, relative to the targets' deviations; measured
-            with ``strategy="auto"`` and fixed steps.
+        step_error: how much twice as many steps change the predictions, relative to the targets' deviations; for fixed
+            steps of explicit methods.
         not_laws: networks of which ``strategy="auto"`` knew no scales: modules of your own.
         without_constant: networks that ``strategy="auto"`` made vanish at zero, because nothing in the records
             determines their constant.

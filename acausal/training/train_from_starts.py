@@ -75,7 +75,7 @@ def run(
     for one in trained:
         if one.failed is not None and not np.isfinite(one.best.loss):
             raise TrainingError(one.failed)
-    errors = _step_errors(training, problems, trained)
+    errors = _step_errors(problems, trained)
     if (step := _finer(training, problems, trained, errors)) is not None:
         finer = _in_steps(training, step)
         keys = [jax.random.key(seed) for seed in seeds]
@@ -87,7 +87,7 @@ def run(
             training, plan = finer, (*plan, *finer.segments)
             judged = None if judged is None else step.over(judged)
             problems = [step.over(own) for own in problems]
-            errors = _step_errors(training, problems, trained)
+            errors = _step_errors(problems, trained)
     for own, start, one in zip(problems, starts, trained, strict=True):
         LOGGER.info(
             "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
@@ -170,14 +170,10 @@ def _needs_pieces(problem: Problem, trained: Trained, *, cut: bool) -> bool:
     return cut or lost or is_sensitive(problem, best.trainable, trained.simulated)
 
 
-def _step_errors(
-    training: Training, problems: Sequence[Problem], trained: Sequence[Trained]
-) -> list[float | None]:
-    """The errors of the steps at the end of each training; ``None`` where the user has chosen all."""
-    if training.automatic is None:
-        return [None] * len(trained)
+def _step_errors(problems: Sequence[Problem], trained: Sequence[Trained]) -> list[float | None]:
+    """The errors of the steps at the end of each training; ``None`` for records that are streamed."""
     return [
-        step_error(own, one.best.trainable, one.simulated)
+        None if own.streamed else step_error(own, one.best.trainable, one.simulated)
         for own, one in zip(problems, trained, strict=True)
     ]
 

@@ -281,3 +281,11 @@ class Actuator(_Filled):
         self.connect(self.piston.flange_a, self.seal.flange_b)
         self.connect(self.seal.flange_a, self.housing.flange)
         self.connect(self.piston.flange_b, self.flange)
+
+    def equations(self) -> Iterator[Any]:
+        yield from super().equations()
+        s = self.piston.s
+        yield ac.Assert(
+            s >= -self.length_a, "the piston has passed the end of chamber a", "warning"
+        )
+        yield ac.Assert(s <= self.length_b, "the piston has passed the end of chamber b", "warning")

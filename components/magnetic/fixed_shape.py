@@ -12,6 +12,9 @@ from .soft_magnetic import BaseData
 
 __modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.FixedShape"
 
+INSIDE_OUT = "a hollow cylinder is wider outside"
+"""What it means that its radii are not in order."""
+
 
 class FixedShape(Reluctance):
     """Base: ``V_m = Phi R_m``, ``R_m = 1/G_m``, ``B = Phi/A``, ``H = B/(mu_0 mu_r)``.
@@ -119,8 +122,9 @@ class HollowCylinderAxialFlux(FixedShape):
     r_i = ac.Parameter(0.0, unit="m", doc="inner radius; zero for a cylinder")
     r_o = ac.Parameter(0.01, unit="m", doc="outer radius")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
+        yield ac.Assert(self.r_i < self.r_o, INSIDE_OUT)
         area = ac.pi * (self.r_o**2 - self.r_i**2)
         yield from self._stated(area, area / self.l)
 
@@ -138,8 +142,9 @@ class HollowCylinderRadialFlux(FixedShape):
     r_o = ac.Parameter(0.02, unit="m", doc="outer radius")
     alpha = ac.Parameter(2 * pi, unit="rad", doc="central angle")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
+        yield ac.Assert(self.r_i < self.r_o, INSIDE_OUT)
         width = self.l * self.alpha
         area = width * (self.r_o + self.r_i) / 2
         yield from self._stated(area, width / ac.log(self.r_o / self.r_i))
@@ -155,8 +160,9 @@ class HollowCylinderCircumferentialFlux(FixedShape):
     r_o = ac.Parameter(0.02, unit="m", doc="outer radius")
     alpha = ac.Parameter(pi / 2, unit="rad", doc="central angle")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
+        yield ac.Assert(self.r_i < self.r_o, INSIDE_OUT)
         area = self.l * (self.r_o - self.r_i)
         yield from self._stated(area, area / ((self.r_o + self.r_i) / 2 * self.alpha))
 

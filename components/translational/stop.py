@@ -80,8 +80,13 @@ class MassWithStopAndFriction(
         first, last = self._ends
         return self.s < last, self.s > first
 
-    def _exact(self) -> Iterator[ac.Eq | ac.When]:
+    def _exact(self) -> Iterator[Any]:
         first, last = self._ends
+        room = 1e-6 * (last - first)
+        inside = (self.s >= first - room) & (self.s <= last + room)
+        yield ac.Assert(
+            inside, "the mass is beyond its stops; let it start between them", "warning"
+        )
         ahead, back = self._bounds
         at_rest = self.F_Coulomb + self.F_Stribeck
         frictionless = (at_rest <= 0) & (self.F_prop <= 0)

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.errors import TrainingError, listing, percent
 from acausal.networks import OffsetCorrected
-from acausal.simulation import EXPLICIT
+from acausal.simulation import EXPLICIT, RK4
 from acausal.training.auto.likely_causes import likely_causes
 from acausal.training.auto.outliers import at_limits, outliers
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
@@ -128,8 +128,9 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     elif not steps and not np.isfinite(fit.step_error or 0.0):
         others.append("In steps of half the length the model diverges: take a smaller dt.")
     elif not steps and fit.step_error is not None:
+        rk4 = "" if isinstance(problem.solver, RK4) else ", or solver='rk4'"
         others.append(
-            f"Its steps err by {percent(fit.step_error / level)} of the targets: take a smaller dt."
+            f"Its steps err by {percent(fit.step_error / level)} of the targets: take a smaller dt{rk4}."
         )
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
     if fit.without_constant:

@@ -196,7 +196,7 @@ class Confidence:
         if self.step_move > MOVED:
             bad.append(
                 f"The error of the integration's steps moves laws and parameters by up to {self.step_move:.2g} "
-                "standard deviations, which do not count it: take a smaller dt, or solver='rk4'."
+                "standard deviations, which do not count it: take a smaller dt, or solver='rk4' if it is another."
             )
         return bad
 
