@@ -29,7 +29,7 @@ from acausal.flattening.silent import Silent
 from acausal.flattening.stated import Stated
 from acausal.flattening.template import Integers
 from acausal.flattening.values import ParameterValues, module_values, parameter_values
-from acausal.modeling import PYTHON, Budget, Component, Discrete, Input, spending
+from acausal.modeling import PYTHON, Budget, Component, Discrete, Input, inherit, spending
 
 
 @dataclass(frozen=True)
@@ -146,6 +146,7 @@ def flatten(model: Component, budget: Budget | None = None, *, watch: bool = Fal
 
 
 def _flat(model: Component, watch: bool) -> FlatModel:
+    inherit(model)
     layout, statements = lay_out(model, watch=watch)
     stated = instantiate(layout, statements)
     sets = connection_sets(layout)

@@ -108,6 +108,7 @@ from acausal.modeling.names import (
     names_in as names_in,
     names_matching as names_matching,
 )
+from acausal.modeling.outer import inherit as inherit, inherited as inherited
 from acausal.modeling.summary import value_text as value_text
 from acausal.modeling.symbols import (
     Eq as Eq,

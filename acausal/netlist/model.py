@@ -129,12 +129,6 @@ def member(value: Any, name: str) -> Any:
             return None
 
 
-def inherited(part: Component, name: str) -> Any:
-    """The value of a parameter in the nearest enclosing model, where the part's class says so (`Component.OUTER`)."""
-    found = (attribute(node.component, part.OUTER[name]) for node in part._node.ancestors())
-    return next((value for value in found if value is not None), None)
-
-
 def state(part: Any, key: str) -> tuple[Any, ...]:
     """The state of a part that modifiers of that name set; the same objects as long as it is not changed."""
     if not isinstance(part, Component):

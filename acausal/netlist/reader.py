@@ -25,6 +25,7 @@ from acausal.modeling import (
     Placement,
     Start,
     Variable,
+    inherit,
 )
 from acausal.netlist import library
 from acausal.netlist.file import (
@@ -43,7 +44,6 @@ from acausal.netlist.model import (
     Netlist,
     attribute,
     hint,
-    inherited,
     is_left_out,
     state as state_of,
 )
@@ -80,19 +80,9 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
         state(scope, text, f"{where}: equations[{number}]")
     for number, text in enumerate(as_list(document, "initial_equations", where)):
         _initial(scope, text, f"{where}: initial_equations[{number}]")
-    _inherit(model, where)
+    within(where, lambda: inherit(model))
     model.distinguish()
     return model
-
-
-def _inherit(model: Component, where: str) -> None:
-    """Give the parts below what their classes take from the models around them, and the file does not give."""
-    for part in model._node.children.values():
-        for name in part.OUTER:
-            value = inherited(part, name)
-            if value is not None and name not in part._node.modifiers:
-                within(where, lambda p=part, n=name, v=value: p.modify(**{n: v}))
-        _inherit(part, where)
 
 
 # -- parameters and parts ----------------------------------------------------------------------------

@@ -25,12 +25,13 @@ from acausal.modeling import (
     Parameter,
     Start,
     Variable,
+    inherited,
     owner_and_name,
     references,
 )
 from acausal.netlist.file import EXPERIMENT_KEYS, NetlistError, within
 from acausal.netlist.library import Library
-from acausal.netlist.model import START_KEYS, FileRecord, Netlist, arguments_of, inherited, state
+from acausal.netlist.model import START_KEYS, FileRecord, Netlist, arguments_of, state
 from acausal.netlist.printer import written
 
 LEADING = ("start_time", "stop_time", "compare")

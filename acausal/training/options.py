@@ -235,8 +235,8 @@ class FitOptions:
         atol: absolute tolerance of adaptive steps in the states' units, 1e-8 by default.
         x0: state at a record's start, for sequences that begin there and for the loss over the whole record.
             ``"auto"``: what is measured, within its noise, and the model's start values of other states, within their
-            size, are the prior of states that the training finds; ``print(fit)`` tells of them. What is not measured
-            and fixed in the model (``fixed=True``) is exact where a record begins at time 0. ``"data"`` exactly as
+            size, are the prior of states that the training finds; ``print(fit)`` tells of them. What no record
+            measures and the model fixes is exact where a record begins at time 0. ``"data"`` exactly as
             measured, ``"model"`` as the model starts, ``"steady"`` at rest with the inputs at the start, or values by
             name that replace the measured ones; others are found. By record: ``{"run 1": "data", "run 2": {...}}``.
             ``"fit"``: found by the training, for the record and, tied by continuity, for each of the sequences, which

@@ -24,8 +24,7 @@ _DRAWN = (
 class PlanarWorld(ac.Component):
     """The world of a planar model: its gravity ``g = constantGravity`` [m/s2] acts on all bodies.
 
-    In a file, bodies take the gravity of the part ``planarWorld`` of the nearest enclosing model. In Python a model
-    hands it down: ``planar.Body(m=1.0, I=0.1, g=self.planarWorld.g)``.
+    Bodies take the gravity of the world in the nearest enclosing model, unless they are given another ``g``.
     """
 
     ICON = icons.WORLD

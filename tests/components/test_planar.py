@@ -478,3 +478,31 @@ def test_a_crank_passes_its_dead_points():
     energy = 0.1 * run["crank.w"] ** 2 + run["slide.v"] ** 2
     np.testing.assert_allclose(energy, energy[0], rtol=1e-5)
     assert float(run["crank.phi"][-1]) == pytest.approx(7.3628, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["planarWorld", "world"])
+def test_the_gravity_of_a_world_acts_on_all_bodies_around_it(name: str, tmp_path: Path) -> None:
+    class Moon(ac.Component):
+        """A body, one within a part, and one with a gravity of its own."""
+
+        def __init__(self) -> None:
+            super().__init__()
+            setattr(self, name, planar.PlanarWorld(constantGravity=[0.0, -1.62]))
+            self.body = planar.Body(m=1.0, I=1.0)
+            self.lift = Lift()
+            self.light = planar.Body(m=1.0, I=1.0, g=[0.0, 0.0])
+
+    moon = Moon()
+    ac.save(moon, tmp_path / "moon.json")
+    for model in (moon, ac.load(tmp_path / "moon.json")):
+        run = ac.simulate(ac.compile(model), 1.0, dt=0.5)
+        ends = [float(run[f"{n}.r[2]"][-1]) for n in ("body", "lift.body", "light")]
+        assert ends == pytest.approx([-0.81, -0.81, 0.0], abs=1e-9)
+
+
+class Lift(ac.Component):
+    """A part with a body in it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.body = planar.Body(m=2.0, I=1.0)

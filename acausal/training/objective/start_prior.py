@@ -43,21 +43,22 @@ class StartPrior(eqx.Module):
 def start_prior(system: System, data: Mapping[str, Data], x0: InitialState) -> StartPrior | None:
     """What is known of the starts of records; NaN for states that are not measured; ``None`` where all are exact.
 
-    ``x0="auto"`` takes what is measured within its noise, and starts that the model fixes, of states that are not
-    measured, as exact in records that begin where a simulation does, at time 0. Values by name are exact, and so is
+    ``x0="auto"`` takes what is measured within its noise, and starts that the model fixes, of states that no record
+    measures, as exact in records that begin where a simulation does, at time 0. Values by name are exact, and so is
     what is measured beside them.
     """
     states = system.states
     fixed = {n for n, own in zip(states, system.initializer.conditions.fixed, strict=False) if own}
+    fixed = fixed.difference(*(record.signals for record in data.values()))
 
     def scale(record: Data, name: str, given: Mapping[str, float] | None) -> float:
         signal = record.signals.get(name)
         if given is not None and name in given:
             return 0.0
-        if signal is None or np.isnan(signal).all():
+        if signal is None:
             return 0.0 if name in fixed and record.time[0] == 0 else np.nan
         if np.isnan(signal[0]):
-            return float(np.nanstd(signal))
+            return np.nan if np.isnan(signal).all() else float(np.nanstd(signal))
         with np.errstate(over="ignore"):
             noise = noise_level([np.asarray(signal)], [np.asarray(record.time)])
             deviation = np.nanstd(signal)
