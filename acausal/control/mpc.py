@@ -40,6 +40,9 @@ if TYPE_CHECKING:
 Course = float | Sequence[float] | Float[np.ndarray, " n"] | Callable[[float], float]
 """A number, one for each sample of the horizon, or a function of time."""
 
+SAME = 1e-9
+"""Of a sample time: an end that is so near to a sample is that sample."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan:
@@ -265,13 +268,14 @@ class MPC:
         params: Mapping[str, Any] | None = None,
         observe: Sequence[str] = (),
     ) -> Data:
-        """The closed loop with a plant, which may be another model: a record at the samples, with the last inputs held.
+        """The closed loop with a plant, which may be another model: a record at the samples, decided inputs held.
 
         Arguments:
             plant: a compiled model with the states and decided inputs of this one, by their names.
-            until: the end [s]; the loop starts at 0.
+            until: the end [s], or the first sample behind it; the loop starts at 0.
             x0: the plant's states at the start; by default its own.
-            reference, inputs: as in `step`, numbers or functions of time.
+            reference, inputs: as in `step`, numbers or functions of time. Plans hold these inputs between samples; the
+                plant has them as they are.
             params: of the plant; by default its own, and those of the controller where the plant is its model.
             observe: further variables of the plant for the record.
 
@@ -304,18 +308,19 @@ class MPC:
         wanted = [*plant.states, *self.system.states, *self.goals.observed, *observe]
         names = [n for n in dict.fromkeys(wanted) if n in plant.variables]
         given: dict[str, Any] = dict(inputs or {})
+        moving = {n: course for n, course in given.items() if callable(course)}
         u = plant.inputs_at(0.0, given)
         state = np.asarray(plant.initial_state(params, x0, inputs=u))
         own = plant.observe(self.system.states, 0.0, state, u, params or plant.parameters())
         rows: list[dict[str, float]] = []
-        for k in range(round(until / self.dt) + 1):
+        for k in range(int(np.ceil(until / self.dt - SAME)) + 1):
             t = k * self.dt
             plan = self.step(np.asarray(own), t, reference=reference, inputs=inputs)
             u = plant.inputs_at(t, {**given, **plan.first})
             held = dict(zip(plant.inputs, u.tolist(), strict=True))
             span = t, t + self.dt
             run = simulation.simulate(
-                plant, span, saveat=span, x0=state, inputs=held, params=params
+                plant, span, saveat=span, x0=state, inputs={**held, **moving}, params=params
             )
             found = {n: np.asarray(run[n]) for n in names}
             rows.append({**{n: float(found[n][0]) for n in names}, **held})
@@ -324,7 +329,8 @@ class MPC:
                 for each in (plant.states, self.system.states)
             )
         columns = {n: np.array([row[n] for row in rows]) for n in rows[0]}
-        return Data(self.dt * np.arange(len(rows)), columns)
+        kept = {n: "previous" for n in plant.inputs if n not in moving}
+        return Data(self.dt * np.arange(len(rows)), columns, interpolation=kept)
 
     def _state(self, x: Mapping[str, float] | ArrayLike) -> np.ndarray:
         names = self.system.states

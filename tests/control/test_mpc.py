@@ -98,6 +98,25 @@ def test_limits_hold_and_a_wind_that_is_known_is_met() -> None:
     assert late.first["push.f"] == pytest.approx(-4.0, abs=1e-5)
 
 
+def test_the_record_of_a_loop_can_be_simulated_again() -> None:
+    system, start = cart(), {"mass.s": 1.0, "mass.v": 0.0}
+    controller = ac.control.mpc(
+        system, dt=0.2, steps=6, track={"mass.s": 1.0}, effort={"push.f": 1e-2}
+    )
+    record = controller.run(system, 0.9, x0=start, inputs={"wind.f": 0.5})
+    np.testing.assert_allclose(record.time, 0.2 * np.arange(6))  # the first sample behind the end
+    again = ac.simulate(system, 1.0, inputs=record, saveat=record.time, x0=start, rtol=1e-9)
+    np.testing.assert_allclose(again["mass.s"], record["mass.s"], atol=1e-6)
+
+    def breeze(t: float) -> float:
+        return 2.0 * t
+
+    idle = ac.control.mpc(system, dt=0.5, steps=4, track={"mass.s": 1.0}, effort={"push.f": 1e9})
+    record = idle.run(system, 2.0, x0=start, inputs={"wind.f": breeze})
+    blown = ac.simulate(system, 2.0, inputs={"push.f": 0.0, "wind.f": breeze}, x0=start, rtol=1e-9)
+    assert record["mass.s"][-1] == pytest.approx(float(blown["mass.s"][-1]), abs=1e-4)
+
+
 class Lagging(ac.Component):
     """An actuator with a lag that is short against the sample time, before a slow plant."""
 

@@ -201,3 +201,25 @@ def test_tanks_say_that_they_run_empty_or_over() -> None:
     with pytest.warns(UserWarning, match="OpenTank 'tank': level .* has run empty"):
         ac.simulate(ac.compile(Drained()), 20.0)
     assert fluid.OpenTank  # which has a rim, too
+
+
+class Halves(ac.Component):
+    """Whole numbers that are none."""
+
+    count = ac.Discrete(0, kind="int")
+    on = ac.Discrete(0, kind="bool")
+    level = ac.Option(1.5)
+
+    def equations(self) -> Iterator[Any]:
+        step = ac.Eq(self.count, ac.pre(self.count) + self.level)
+        yield ac.When(ac.sample(0.25, 0.5), step, ac.Eq(self.on, 1 - ac.pre(self.on)))
+
+
+def test_fractions_of_whole_numbers_are_told() -> None:
+    with pytest.warns(
+        UserWarning, match=r"'count' is declared with kind='int', but is 1\.5 at t = 0\.3 s"
+    ):
+        ac.simulate(ac.compile(Halves()), 1.0, dt=0.1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ac.simulate(ac.compile(Halves(level=2)), 1.0, dt=0.1)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.components import translational
 from tests.support.parts import Fixed, Flange, Mass, Model, Pin, Resistor, SpringDamper
 
 
@@ -437,3 +438,16 @@ def test_variables_are_not_differentiated_by_sympy() -> None:
 
     with pytest.raises(ac.DeclarationError, match=r"a derivative in time is ac\.der"):
         ac.compile(Decay())
+
+
+def test_a_number_that_a_component_of_the_library_does_not_have_is_refused() -> None:
+    class Hanging(ac.Component):
+        def __init__(self) -> None:
+            super().__init__()
+            self.spring = translational.Spring(c=1.0)
+
+    model = Hanging()
+    with pytest.raises(ac.DeclarationError, match="Spring 'spring' has no 'k'"):
+        model.spring.k = 99.0
+    model.spring.c = 99.0
+    assert model.spring._node.modifiers["c"] == 99.0
