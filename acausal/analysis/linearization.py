@@ -17,7 +17,7 @@ from acausal._jax import array, check_time, compiled, is_real
 from acausal.analysis.operating_point import OperatingPoint
 from acausal.analysis.tracking import numbers_by_name
 from acausal.codegen import Values
-from acausal.errors import DataError, cut_short, need_compiled, need_package, shown
+from acausal.errors import DataError, cut_short, listing, need_compiled, need_package, shown, warn
 from acausal.modeling import names_in
 
 if TYPE_CHECKING:
@@ -85,6 +85,8 @@ class Linearization:
     ) -> Complex[np.ndarray, "n n_outputs n_inputs"]:
         """``C (jw - A)^-1 B + D`` at angular frequencies [rad/s], shape (len(omega), p, m).
 
+        Where the model has derivatives of an input as inputs, ``der(u)``, that of ``u`` is with them, times ``jw``.
+
         Raises:
             DataError: for what is not frequencies, or one at which the model has an undamped pole.
         """
@@ -96,17 +98,31 @@ class Linearization:
         ):
             raise DataError(f"omega={shown(omega)} are not frequencies; give numbers, in rad/s.")
         A, B, C, D = (np.asarray(m) for m in (self.A, self.B, self.C, self.D))
-        identity = np.eye(len(A))
+        identity, rates = np.eye(len(A)), self._rates()
 
         def response(w: float) -> Complex[np.ndarray, "n_outputs n_inputs"]:
+            moved = np.eye(B.shape[1], dtype=complex)
+            for rate, column, order in rates:
+                moved[rate, column] = (1j * w) ** order
             try:
-                return C @ np.linalg.solve(1j * w * identity - A, B) + D
+                return (C @ np.linalg.solve(1j * w * identity - A, B) + D) @ moved
             except np.linalg.LinAlgError:
                 raise DataError(
                     f"omega={w:g} rad/s is an undamped pole of the model, where there is no response; leave it out."
                 ) from None
 
         return np.stack([response(w) for w in np.atleast_1d(omega)])
+
+    def _rates(self) -> list[tuple[int, int, int]]:
+        """Inputs that are derivatives of others: their places, those of the others, and how often."""
+        found: list[tuple[int, int, int]] = []
+        for place, name in enumerate(self.inputs):
+            order = 0
+            while name.startswith("der("):
+                name, order = name.removeprefix("der(").removesuffix(")"), order + 1
+            if order and name in self.inputs:
+                found.append((place, self.inputs.index(name), order))
+        return found
 
     def step_response(
         self, t: Float[ArrayLike, " n"] | float | None = None
@@ -123,6 +139,11 @@ class Linearization:
         Raises:
             DataError: for what is not times.
         """
+        if rates := self._rates():
+            warn(
+                f"step_response: the model takes {listing(self.inputs[i] for i, *_ in rates)}, which a step has only "
+                "at its instant: that is left out."
+            )
         A, B, C, D = (np.asarray(m) for m in (self.A, self.B, self.C, self.D))
         times = _times(t, self.eigenvalues())
         n, m = B.shape

@@ -265,3 +265,26 @@ def test_a_switch_is_as_its_input_says(closed: float) -> None:
     given = 0.0, [1.0], [closed], system.parameters()
     np.testing.assert_allclose(system.vector_field(*given), [10 - resistance])
     np.testing.assert_allclose(system.observe("l.v", *given), 10 - resistance)
+
+
+def test_the_response_to_a_differentiated_input_has_its_derivatives() -> None:
+    class Base(ac.Component):
+        """A mass on a spring on a base whose position is given."""
+
+        def __init__(self) -> None:
+            super().__init__()
+            self.base, self.foot = tl.Position(exact=True), tl.Mass(m=1.5)
+            self.spring, self.mass = tl.SpringDamper(c=40.0, d=2.0), tl.Mass(m=2.0)
+            self.connect(self.base.flange, self.foot.flange_a)
+            self.connect(self.foot.flange_b, self.spring.flange_a)
+            self.connect(self.spring.flange_b, self.mass.flange_a)
+
+    linear = ac.linearize(ac.compile(Base()), outputs=["mass.s", "foot.a"])
+    omega = np.array([0.5, 2.0, 4.0, 10.0])
+    s = 1j * omega
+    given = linear.inputs.index("base.s_ref")
+    response = linear.frequency_response(omega)[:, :, given]
+    np.testing.assert_allclose(response[:, 0], (2 * s + 40) / (2 * s**2 + 2 * s + 40), rtol=1e-9)
+    np.testing.assert_allclose(response[:, 1], s**2, rtol=1e-9)
+    with pytest.warns(UserWarning, match=r"der\(base\.s_ref\)', .* only at its instant"):
+        linear.step_response(1.0)
