@@ -18,7 +18,7 @@ from acausal.analysis.operating_point import OperatingPoint
 from acausal.analysis.tracking import numbers_by_name
 from acausal.codegen import Values
 from acausal.errors import DataError, cut_short, listing, need_compiled, need_package, shown, warn
-from acausal.modeling import names_in
+from acausal.modeling import names_in, with_elements
 
 if TYPE_CHECKING:
     from control import StateSpace
@@ -430,7 +430,7 @@ def linearize(
             ``"steady"`` is its rest. An `OperatingPoint` gives states, inputs, parameters and time, unless these are
             given, too.
         inputs: by name, numbers or functions of time (the rest zero), or all as an array; by default zero.
-        outputs: variables to take as outputs.
+        outputs: variables to take as outputs; the name of an array stands for all of its elements.
         params: parameters, by default the model's own.
         t: time [s], by default 0.
 
@@ -439,7 +439,7 @@ def linearize(
         ModelError: for an output that the model does not have, and for a model that is not compiled.
     """
     need_compiled(system, "linearize")
-    outputs = names_in(outputs, "outputs")
+    outputs = with_elements(names_in(outputs, "outputs"), system.variables)
     at = point_of(system, x, inputs, params, t)
     system.warn_of_sampled("linearize")
     at = at._replace(t=array(at.t))  # one program for all times

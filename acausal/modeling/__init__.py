@@ -107,6 +107,7 @@ from acausal.modeling.names import (
     full_name as full_name,
     names_in as names_in,
     names_matching as names_matching,
+    with_elements as with_elements,
 )
 from acausal.modeling.outer import inherit as inherit, inherited as inherited
 from acausal.modeling.summary import value_text as value_text

@@ -167,6 +167,15 @@ def by_name(given: Any, argument: str, example: str) -> dict[str, Any]:
     return {name: given[name] for name in names_in(given, argument)} if given is not None else {}
 
 
+def with_elements(names: Iterable[str], known: Collection[str]) -> tuple[str, ...]:
+    """The same names, with those of their elements in the place of arrays."""
+    found: list[str] = []
+    for name in names:
+        elements = None if name in known else elements_of(name, known)
+        found += [name] if elements is None else elements.ravel().tolist()
+    return tuple(found)
+
+
 def elements_of(name: str, known: Iterable[str]) -> NDArray[np.str_] | None:
     """The names of an array's elements, in its shape; None where the known names have no whole array of that name."""
     begin = len(name) + 1

@@ -288,3 +288,15 @@ def test_the_response_to_a_differentiated_input_has_its_derivatives() -> None:
     np.testing.assert_allclose(response[:, 1], s**2, rtol=1e-9)
     with pytest.warns(UserWarning, match=r"der\(base\.s_ref\)', .* only at its instant"):
         linear.step_response(1.0)
+
+
+def test_the_name_of_an_array_stands_for_its_elements() -> None:
+    class Two(ac.Component):
+        x = ac.Variable(shape=2, start=0.0)
+        u = ac.Input()
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), -np.array([1.0, 2.0]) * self.x + self.u)
+
+    linear = ac.linearize(ac.compile(Two()), outputs=["x", "u"])
+    assert linear.outputs == ("x[1]", "x[2]", "u")
