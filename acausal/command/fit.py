@@ -111,6 +111,8 @@ def _show(done: ac.Fit, title: str, files: list[str], out: CommandOutput) -> Non
     out.table(("", "before", "after"), rows)
     rows = [(n, number(error), done.system.unit(n)) for n, error in done.rms.items()]
     out.table(("target", "rms error", "unit"), rows)
+    for sentence in () if done.verdict is None else done.verdict.sentences:
+        out.say(sentence)
     out.wrote(files)
 
 
@@ -129,6 +131,8 @@ def _facts(done: ac.Fit) -> dict[str, Any]:
         "records": list(done.records),
         "best_epoch": done.best_epoch,
         "epochs": done.history.epochs,
+        "good": None if done.verdict is None else done.verdict.good,
+        "verdict": [] if done.verdict is None else list(done.verdict.sentences),
         "seconds": done.seconds,
         "interrupted": done.interrupted,
     }
