@@ -96,7 +96,7 @@ class Gain(Cause):
         return to_check(1 + size)
 
 
-class Start(Cause):
+class OtherStart(Cause):
     """A state that is not measured, and did not start where it was taken to."""
 
     def sentence(self, size: float) -> str:
@@ -238,7 +238,7 @@ def _starts(fit: TrainedModel) -> Iterator[Cause]:
         return freed.predict(replace(trainable, starts=starts), params)
 
     for name, effect in zip(names, _effects(predicted, len(names)), strict=True):
-        yield Start((name,), effect, np.inf)
+        yield OtherStart((name,), effect, np.inf)
 
 
 def _effects(predicted: Callable[[Array], Array], n: int) -> Float[np.ndarray, "n N n_targets"]:
