@@ -22,9 +22,9 @@ LEVELS = ("error", "warning")
 class Assert:
     """``Assert(condition, text)`` among the equations of a component: what must hold, as Modelica's ``assert``.
 
-    A condition of parameters is looked at whenever values are given for them, one that varies at all points of a
-    simulation's result and at its events; nothing follows from it for the equations. While JAX traces, and in
-    exports other than Modelica's, nothing is looked at.
+    A condition of parameters is looked at whenever values are given for them, one that varies at the points of a
+    simulation's result; nothing follows from it for the equations. While JAX traces, and in exports other than
+    Modelica's, nothing is looked at.
 
     Attributes:
         condition: a comparison, ``&``, ``|``, ``~`` of some, or a variable that is 1 or 0; of arrays, each element.

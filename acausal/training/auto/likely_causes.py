@@ -226,15 +226,16 @@ def _starts(fit: TrainedModel) -> Iterator[Cause]:
     problem, trainable = fit.problem, fit.trained
     known = np.isfinite(np.asarray(problem.first_states.given))
     scale = 0 * known if problem.start_prior is None else np.asarray(problem.start_prior.scale)
-    held = np.flatnonzero((~known & (scale == 0)).any(axis=0))
-    names = [problem.system.states[i] for i in held]
-    moved = np.where(~known & (scale == 0), problem.system.nominal, scale)
+    held = ~known & (scale == 0)
+    places = np.flatnonzero(held.any(axis=0))
+    names = [problem.system.states[i] for i in places]
+    moved = np.where(held, problem.system.nominal, scale)
     freed = replace(problem, start_prior=StartPrior(jnp.asarray(moved)))
     params = problem.assemble(trainable)
     found = jnp.zeros(moved.shape) if trainable.starts is None else trainable.starts
 
     def predicted(step: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
-        starts = found.at[:, held].add(jnp.where((~known & (scale == 0))[:, held], step, 0.0))
+        starts = found.at[:, places].add(jnp.where(held[:, places], step, 0.0))
         return freed.predict(replace(trainable, starts=starts), params)
 
     for name, effect in zip(names, _effects(predicted, len(names)), strict=True):
