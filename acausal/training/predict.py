@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
@@ -35,6 +35,9 @@ from acausal.training.uncertainty.confidence import Band, Confidence
 IN_NOISE, TINY, MUCH, FINEST = 0.3, 1e-4, 5.0, 64
 """What half as long steps may change, relative to the noise or at least the signal; a change to warn of where the steps
 of the fit were as long; most steps between two samples."""
+
+MISSED, SEEN = 3.0, 0.05
+"""A target is missed where the error is more than so many times its noise, and more than this part of its deviation."""
 
 UPDATES = 50
 """At most so many steps find what a record has for itself."""
@@ -87,6 +90,8 @@ def predict(
     """Predict records; arguments and errors as those of `Fit.predict`."""
     records = {n: d.for_system(fit.system) for n, d in records_of(data).items()}
     check_records(x0, records)
+    if isinstance(x0, str):
+        x0 = "auto" if x0 == "fit" else x0  # the start of a prediction is found beside nothing else
     own = _own_given(params, records)
     if executor is None:
         return Predictions(_predicted((fit, conformal), _Some(records, x0, own)), fit.system)
@@ -149,7 +154,7 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
             **every,
             bands=bands,
             outside=out_of_range(record, fit),
-            apart=_apart(record.name, sensitive[k]),
+            doubts=tuple(_doubts(record, sensitive[k], confidence.noise)),
             found=found_starts(problem, slice(k, k + 1)),
             units=units,
         )
@@ -158,15 +163,20 @@ def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> di
     return {n: one(k, replace(r, name=n)) for k, (n, r) in enumerate(named)}
 
 
-def _apart(name: str, sensitive: float) -> str:
+def _doubts(record: RecordFit, sensitive: float, noise: Mapping[str, float]) -> Iterator[str]:
     """See `Prediction`."""
-    if sensitive <= SENSITIVE:
-        return ""
-    return (
-        f"Starts that are off by {percent(OFF)} change '{name}' by {percent(OFF * sensitive)}: the model is unstable "
-        "or chaotic, and one simulation does not follow it. Predict shorter parts (data.between), or follow it by what "
-        "is measured: ac.estimate."
-    )
+    if sensitive > SENSITIVE:
+        yield (
+            f"Starts that are off by {percent(OFF)} change it by {percent(OFF * sensitive)}: the model is unstable or "
+            "chaotic, and one simulation does not follow it. Predict shorter parts (data.between), or follow what is "
+            "measured by ac.estimate."
+        )
+    for (name, error), size in zip(record.rms.items(), record.sigma.tolist(), strict=True):
+        if error > max(MISSED * noise[name], SEEN * size):
+            yield (
+                f"'{name}' is missed by {error / noise[name]:.2g} times its noise: the model does not hold here, or "
+                "starts in another state (x0=) or with other discrete variables than its own."
+            )
 
 
 def _in_fine_steps(

@@ -40,15 +40,15 @@ class Prediction(RecordFit):
         bands: by target, the prediction over time with its standard deviation: that of the laws and parameters, of what
             was found for this record, and of the noise. With conformal bands the bounds are theirs.
         outside: a sentence on what leaves the training's range, where the model extrapolates; empty where nothing does.
-        apart: a sentence on a model so sensitive to its start that no single simulation follows such a record; empty
-            for others.
+        doubts: sentences on why it may not hold: a model so sensitive to its start that no single simulation follows
+            such a record, targets that are missed by much more than their noise.
         found: a clause on the initial states that were found from the record's own targets; empty without any.
         units: of the targets.
     """
 
     bands: Mapping[str, Band]
     outside: str
-    apart: str
+    doubts: tuple[str, ...]
     found: str
     units: Mapping[str, str]
 
@@ -108,7 +108,7 @@ class Prediction(RecordFit):
     @property
     def remarks(self) -> list[str]:
         """What is to be said of it, a sentence each."""
-        return [one for one in (self.outside, self.apart) if one]
+        return [*([self.outside] if self.outside else []), *self.doubts]
 
 
 @dataclass(frozen=True, eq=False)

@@ -182,6 +182,45 @@ def test_parameters_of_a_record_are_found_or_given():
         fit.predict(new, params={"other": {"spring.d": 2.0}})
 
 
+class Falling(ac.Component):
+    """A rod that falls from where it stands."""
+
+    g = ac.Parameter(10.0, min=0)
+    u = ac.Input()
+    phi = ac.Variable(start=0.0)
+    w = ac.Variable(start=0.0)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.phi), self.w)
+        yield ac.Eq(ac.der(self.w), self.g * self.phi + self.u)
+
+
+def test_doubts_about_predictions_are_told() -> None:
+    part = noisy(clean().between(10, 14), 2, "mass.s", "mass.v")
+    assert not trained().predict(part)["record"].doubts
+    moved = ac.Data(part.time, {**part.signals, "mass.s": np.roll(part["mass.s"], 40)})
+    (said,) = trained().predict(moved)["record"].doubts
+    assert "'mass.s' is missed by" in said
+    t = np.linspace(0, 1, 101)
+    run = ac.simulate(
+        ac.compile(Falling()), 1.0, dt=0.01, inputs={"u": np.sin(9 * t)}, x0={"w": 0.1}
+    )
+    phi = np.asarray(run["phi"]) + 1e-3 * np.random.default_rng(0).standard_normal(len(t))
+    fit = ac.fit(
+        ac.compile(Falling()),
+        ac.Data(t, {"u": np.sin(9 * t), "phi": phi}),
+        ["phi"],
+        modifiers=["g"],
+        progress=False,
+    )
+    long = np.linspace(0, 4, 401)
+    swung = 0.3 * np.sin(2 * long) + 1e-3 * np.random.default_rng(1).standard_normal(len(long))
+    held = ac.Data(long, {"u": -14 * 0.3 * np.sin(2 * long), "phi": swung})
+    found = fit.predict(held, x0="fit")["record"]
+    assert any("the model is unstable" in one for one in found.doubts)
+    assert found.found
+
+
 def test_errors_stand_in_a_table_and_what_leaves_the_range_is_told(tmp_path: Path):
     parts = {"a": clean().between(10, 14), "b": clean().between(14, 18)}
     large = ac.Data(parts["b"].time, {n: 3 * v for n, v in parts["b"].signals.items()})
