@@ -12,12 +12,15 @@ from jaxtyping import Array, Float
 
 from acausal._jax import check_time
 from acausal.codegen import Values
-from acausal.errors import known_name, need_compiled
+from acausal.errors import InitializationError, known_name, need_compiled
 from acausal.initialization import Initialization
 from acausal.modeling import ByName, names_in
 
 if TYPE_CHECKING:
     from acausal.system import Params, System
+
+AT_REST = 1e-4
+"""A state rests if it moves by less than this part of its nominal value in a second."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -111,4 +114,27 @@ def operating_point(
     packed, u = system.pack(params), system.inputs_at(t, inputs)
     system.warn_of_sampled("operating_point")
     found = system.initialize(packed, x0, inputs=u, t0=t, steady=steady)
-    return OperatingPoint(system.modes(system.values(t, found.x, u, packed)), system, found)
+    at = system.modes(system.values(t, found.x, u, packed))
+    if system.events is not None:
+        given = {} if x0 is None else system.initializer.by_state(x0)
+        resting = system.states if steady is True else names_in(steady or (), "steady")
+        _need_rest(system, at, [n for n in resting if n not in given])
+    return OperatingPoint(at, system, found)
+
+
+def _need_rest(system: System, at: Values, resting: Sequence[str]) -> None:
+    """Refuse a point at which conditions have changed, so that it is no rest any more.
+
+    Raises:
+        InitializationError: that names the state which moves most.
+    """
+    places = [system.states.index(name) for name in resting]
+    rates = np.asarray(system.rates(at))[places]
+    moves = np.abs(rates) / np.asarray(system.nominal)[places]
+    if moves.size and np.max(moves) > AT_REST:
+        i = int(np.argmax(moves))
+        raise InitializationError(
+            "No rest was found: where the equations of the start rest, conditions change, such as that of a friction "
+            f"that yields, and '{resting[i]}' moves by {rates[i]:.3g} {system.unit(resting[i])} per second. Give "
+            "starts nearer to the rest (ac.Start in the components), or simulate until the model rests."
+        )

@@ -245,17 +245,19 @@ def _warn_of_another_solution(solution: Solution) -> None:
 def _warn_of_fractions(solution: Solution) -> None:
     """Warn where a discrete variable that was declared as a whole number, or as 1 or 0, is none."""
     system = solution.system
-    if not system.wholes or known((solution.t, solution.d)) is None or solution.t.ndim != 1:
+    found = known((solution.t, solution.d)) if system.wholes and solution.t.ndim == 1 else None
+    if found is None:
         return
     names, kinds = zip(*system.wholes.items(), strict=True)
-    values = np.abs(np.asarray(solution.d)[:, [system.discrete[n][0] for n in names]])
+    values = np.abs(np.asarray(found[1])[:, [system.discrete[n][0] for n in names]])
     truth = np.asarray(kinds) == "bool"
     wrong = (values != np.round(values)) | (truth & (values > 1))
     if wrong.any():
         row, i = np.argwhere(wrong)[0]
+        t, wanted = float(np.asarray(found[0])[row]), "1 or 0" if truth[i] else "whole numbers"
         warn(
-            f"'{names[i]}' is declared with kind='{kinds[i]}', but is {values[row, i]:g} at t = "
-            f"{float(solution.t[row]):g} s: give it {'1 or 0' if truth[i] else 'whole numbers'}, or leave kind out."
+            f"'{names[i]}' is declared with kind='{kinds[i]}', but is {values[row, i]:g} at t = {t:g} s: give it "
+            f"{wanted}, or leave kind out."
         )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import electrical as el, rotational as rot
+from acausal.components import electrical as el, rotational as rot, translational as tl
 from tests.support.parts import model
 
 
@@ -189,3 +189,26 @@ def test_the_rest_is_looked_for_in_the_branch_of_the_start(low: float) -> None:
     np.testing.assert_allclose(ac.linearize(system, point).A, [[-1]])
     np.testing.assert_allclose(system.vector_field(0.0, [2.0], None, system.parameters()), [1])
     np.testing.assert_allclose(system.vector_field(0.0, [0.5], None, system.parameters()), [low])
+
+
+def test_a_friction_that_yields_is_no_rest() -> None:
+    class Pushed(ac.Component):
+        """A mass on a rough floor and a spring, pushed by more than the floor holds."""
+
+        def __init__(self) -> None:
+            super().__init__()
+            self.push, self.mass = tl.ConstantForce(f_constant=30.0), tl.Mass(m=2.0)
+            self.floor, self.spring = (
+                tl.SupportFriction(f_pos=[[0.0, 4.0], [1.0, 5.0]]),
+                tl.Spring(c=100.0),
+            )
+            self.wall = tl.Fixed()
+            self.connect(self.push.flange, self.mass.flange_a)
+            self.connect(self.mass.flange_b, self.floor.flange_a)
+            self.connect(self.floor.flange_b, self.spring.flange_a)
+            self.connect(self.spring.flange_b, self.wall.flange)
+
+    with pytest.raises(
+        ac.InitializationError, match=r"conditions change, .* and 'mass\.v' moves by 13 m/s"
+    ):
+        ac.operating_point(ac.compile(Pushed()))
