@@ -195,6 +195,15 @@ class Component:
             self._node.constants[name] = value
             object.__setattr__(self, name, value)
 
+    def __delattr__(self, name: str) -> None:
+        node = self._node
+        if name in node.children or name in node.own_declarations:
+            raise DeclarationError(
+                f"{node.label}.{name} cannot be removed, as others may be connected to it: make the model without it, "
+                "or give another part in its place (replace)."
+            )
+        object.__delattr__(self, name)
+
     def _refuse_slip(self, name: str) -> None:
         """Refuse a number under a name that is like a parameter's, and of nothing: it would be ignored."""
         known = [*self._declared, *self._node.own_declarations]

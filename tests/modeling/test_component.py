@@ -451,3 +451,10 @@ def test_a_number_that_a_component_of_the_library_does_not_have_is_refused() -> 
         model.spring.k = 99.0
     model.spring.c = 99.0
     assert model.spring._node.modifiers["c"] == 99.0
+
+
+def test_a_part_cannot_be_removed() -> None:
+    model = Model()
+    model.mass = Mass(m=1.0)
+    with pytest.raises(ac.DeclarationError, match="mass cannot be removed"):
+        del model.mass
