@@ -135,8 +135,8 @@ def estimate(
         members: of the ensemble. seed: of its random numbers.
 
     Returns:
-        The estimates: any variable of the model by its name, with standard deviations, innovations and likelihood. Times
-        are those of the record, and further ones where samples are farther apart than usual.
+        The estimates: any variable of the model by its name, with standard deviations, innovations and likelihood.
+        Times are those of the record, and further ones where samples are farther apart than usual.
 
     Raises:
         DataError: if the record lacks inputs or measurements, or an argument does not fit.
