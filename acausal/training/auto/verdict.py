@@ -141,7 +141,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"{names}: trained from where it was, as its scales do not follow from the data: see that what goes in and "
             "comes out is of the size 1 (of neural elements: input_scale=, output_scale=)."
         )
-    return Verdict(good, fit.loss, noise, (first, *others, *_ranges(fit)))
+    return Verdict(bool(good), fit.loss, noise, (first, *others, *_ranges(fit)))
 
 
 def explains(problem: Problem, loss: float, noise: float) -> bool:
@@ -159,11 +159,14 @@ def _odd_records(problem: Problem, simulated: Simulated) -> Iterator[str]:
         return
     with np.errstate(all="ignore"):
         off = (np.asarray(simulated.y) - np.asarray(records.y)) / np.asarray(records.sigma)
-    squares = np.where(np.asarray(records.weight) > 0, off**2, np.nan)
-    left = [float(np.sqrt(np.nanmean(squares[records.rows_of(k)]))) for k in range(records.count)]
+    counts = np.asarray(records.weight) > 0
+    left: list[float] = []
+    for own in map(records.rows_of, range(records.count)):
+        count = counts[own].sum()
+        left.append(float(np.sqrt(np.sum(off[own][counts[own]] ** 2) / count)) if count else 0.0)
     worst = int(np.argmax(left))
     others = max(x for k, x in enumerate(left) if k != worst)
-    if left[worst] > ODD * others:
+    if left[worst] > ODD * others > 0:
         yield (
             f"Of '{records.names[worst]}' it leaves {percent(left[worst])}, of each other record {percent(others)} at "
             "most: look at that one first (a sign, a unit, another load)."
