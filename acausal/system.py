@@ -269,10 +269,9 @@ class System(LeavesCaches):
     def wholes(self) -> dict[str, str]:
         """Names of the discrete variables that are whole numbers, or 1 or 0, with their kinds."""
         layout = self.flat.layout
-        every = {
-            n: layout.variable_declaration(layout.find_variable(n) or 0) for n in self.discrete
-        }
-        kinds = {n: getattr(declared, "kind", "real") for n, declared in every.items()}
+        places = {n: layout.find_variable(n) for n in self.discrete}
+        declared = {n: layout.variable_declaration(i) for n, i in places.items() if i is not None}
+        kinds = {n: getattr(one, "kind", "real") for n, one in declared.items()}
         return {n: kind for n, kind in kinds.items() if kind != "real"}
 
     def describe_discrete(self, place: int) -> str:
@@ -408,18 +407,25 @@ class System(LeavesCaches):
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
 
         Raises:
-            DataError: for an unknown name, or a value that does not fit, also where an assertion says so.
+            DataError: for an unknown name, or a value that does not fit.
         """
         need_double_precision()
         if params is None:
             params = self.parameters()
-        packed = pack(self.layout, params)
-        if self.flat.assertions and packed is not params and not traced(packed.values):
-            values = np.asarray(packed.values)
-            if values.tobytes() != self._allowed:
-                check_assertions(self.flat, self.layout.by_number(values), DataError)
-                vars(self)["_allowed"] = values.tobytes()
-        return packed
+        return pack(self.layout, params)
+
+    def check(self, packed: Packed) -> None:
+        """Refuse values of parameters for which an assertion of the model does not hold, or warn, as it says.
+
+        Raises:
+            DataError: for the first of them.
+        """
+        if not self.flat.assertions or traced(packed.values):
+            return
+        values = np.asarray(packed.values)
+        if values.ndim == 1 and values.tobytes() != self._allowed:
+            check_assertions(self.flat, self.layout.by_number(values), DataError)
+            vars(self)["_allowed"] = values.tobytes()
 
     @cached_property
     def _allowed(self) -> bytes:

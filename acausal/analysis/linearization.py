@@ -409,6 +409,7 @@ def point_of(
     t = 0.0 if t is None else t
     check_time(t)
     packed, given = system.pack(params), system.inputs_at(t, inputs)
+    system.check(packed)
     state = system.initial_state(packed, x, inputs=given, t0=t)
     return system.in_modes(system.values(t, state, given, packed))
 

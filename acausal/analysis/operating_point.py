@@ -10,7 +10,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import check_time
+from acausal._jax import check_time, known
 from acausal.codegen import Values
 from acausal.errors import InitializationError, known_name, need_compiled
 from acausal.initialization import Initialization
@@ -112,6 +112,7 @@ def operating_point(
     need_compiled(system, "operating_point")
     check_time(t)
     packed, u = system.pack(params), system.inputs_at(t, inputs)
+    system.check(packed)
     system.warn_of_sampled("operating_point")
     found = system.initialize(packed, x0, inputs=u, t0=t, steady=steady)
     at = system.modes(system.values(t, found.x, u, packed))
@@ -129,9 +130,12 @@ def _need_rest(system: System, at: Values, resting: Sequence[str]) -> None:
         InitializationError: that names the state which moves most.
     """
     places = [system.states.index(name) for name in resting]
-    rates = np.asarray(system.rates(at))[places]
+    found = known(system.rates(at)) if places else None
+    if found is None:
+        return
+    rates = np.asarray(found)[places]
     moves = np.abs(rates) / np.asarray(system.nominal)[places]
-    if moves.size and np.max(moves) > AT_REST:
+    if np.max(moves) > AT_REST:
         i = int(np.argmax(moves))
         raise InitializationError(
             "No rest was found: where the equations of the start rest, conditions change, such as that of a friction "

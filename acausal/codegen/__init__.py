@@ -53,7 +53,6 @@ from acausal.codegen.parameters import (
 )
 from acausal.codegen.program import (
     DISCRETE as DISCRETE,
-    INPUTS as INPUTS,
     ZERO as ZERO,
     Program as Program,
     described as described,

@@ -12,7 +12,7 @@ from functools import cached_property, partial
 import numpy as np
 import sympy as sp
 
-from acausal.codegen import DISCRETE, INPUTS, ArrayFormula, ParameterLayout, Program, formula_of
+from acausal.codegen import DISCRETE, ArrayFormula, ParameterLayout, Program, formula_of
 from acausal.flattening import GuardGroup, Integers, LeavesCaches, UpdateGroup
 from acausal.modeling import time
 from acausal.structure import ReducedModel, dependence_pattern
@@ -110,7 +110,7 @@ class Events(LeavesCaches):
         reads: list[tuple[int, int]] = []
         for update in self.updates:
             now = self.program.in_copy(update.formula.sources, 0)
-            if any(source not in (INPUTS, DISCRETE) for source in now):
+            if any(source != DISCRETE for source in now):
                 takes |= set(update.places.tolist())
             reads += _reads(update, DISCRETE, self.program)
         ticking = set(np.flatnonzero(self.ticks).tolist())

@@ -296,13 +296,13 @@ class Algorithms(Evaluator):
         """Condition, text and level of an assertion."""
         if self.frame.build is not None:
             self.frame.build.performs = True
-        arguments = [*call.arguments, *call.named.values()]
-        if len(arguments) < 2:
+        given = dict(zip(("condition", "message", "level"), call.arguments, strict=False))
+        given |= call.named
+        if not {"condition", "message"} <= given.keys():
             raise self.wrong("assert takes a condition and a text")
-        holds = self.truth(self.value(arguments[0]))
-        level = arguments[2] if len(arguments) > 2 else None
+        holds, level = self.truth(self.value(given["condition"])), given.get("level")
         is_warning = isinstance(level, DottedName) and level.words[-1] == "warning"
-        return holds, self._shown(arguments[1]), "warning" if is_warning else "error"
+        return holds, self._shown(given["message"]), "warning" if is_warning else "error"
 
     def _shown(self, text: Expression) -> str:
         """A text; what changes with time is left out."""

@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, warn
 from acausal.modelica.connecting import Connecting, is_of_graph
 from acausal.modelica.meanings import Literal
 from acausal.modelica.syntax import (
@@ -42,6 +42,7 @@ from acausal.modeling import (
     Variable,
     When,
     der,
+    each,
     pre,
 )
 
@@ -163,7 +164,9 @@ class SectionReader(Connecting):
         for some, applies in ((first, holds), (second, sp.Not(holds))):
             for one in [one for one in some if isinstance(one, Assert)]:
                 some.remove(one)
-                yield Assert(sp.Or(sp.Not(applies), one.condition), one.text, one.level)
+                yield from self._asserting(
+                    sp.Or(sp.Not(applies), one.condition), one.text, one.level
+                )
         if len(first) != len(second):
             reason = (
                 f"the branches have {len(first)} and {len(second)} equations; they need as many"
@@ -187,11 +190,16 @@ class SectionReader(Connecting):
             self.perform(call)
         if isinstance(holds, sp.Basic):
             place = self.frame.node.source.place(call.at)
-            try:
-                yield Assert(holds, f"{text} ({place})" if place else text, level)
-            except DeclarationError:
-                if varies:
-                    self.perform(call)  # which says that nothing watches it
+            yield from self._asserting(holds, f"{text} ({place})" if place else text, level)
+
+    def _asserting(self, holds: Any, text: str, level: str) -> Iterator[Assert]:
+        """An assertion, if it does not hold in any case; with a warning none, where nothing can look at it."""
+        try:
+            made: Any = Assert(holds, text, level)
+        except DeclarationError:
+            warn(f"nothing watches this assertion while the model runs: {text}")
+        else:
+            yield from each([made])
 
     # -- when ----------------------------------------------------------------------------------------------
 

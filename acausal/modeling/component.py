@@ -197,12 +197,13 @@ class Component:
 
     def __delattr__(self, name: str) -> None:
         node = self._node
-        if name in node.children or name in node.own_declarations:
+        if any(part == name or part.startswith(f"{name}[") for part in node.children):
             raise DeclarationError(
                 f"{node.label}.{name} cannot be removed, as others may be connected to it: make the model without it, "
                 "or give another part in its place (replace)."
             )
         object.__delattr__(self, name)
+        node.constants.pop(name, None)
 
     def _refuse_slip(self, name: str) -> None:
         """Refuse a number under a name that is like a parameter's, and of nothing: it would be ignored."""

@@ -45,6 +45,7 @@ class Node(Generic[C]):
         early_modifiers: modifiers of parts that do not exist yet.
         connections: pairs of endpoints that it connects.
         placement: where it lies on the schematic of its parent, if that was said.
+        inherited: which modifiers its class takes from the models around it (`Component.OUTER`).
         bindings: equations that hold because parameters depend on unknown initial parameters.
     """
 
@@ -61,6 +62,7 @@ class Node(Generic[C]):
     constants: dict[str, Any] = field(default_factory=dict)
     early_modifiers: dict[str, Mapping[str, Any]] = field(default_factory=dict)
     connections: list[tuple[Endpoint, Endpoint]] = field(default_factory=list)
+    inherited: dict[str, Any] = field(default_factory=dict)
     bindings: list[Eq] = field(default_factory=list)
     placement: Placement | None = None
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from acausal.modeling.component import Component
+from acausal.modeling.node import Node
 
 
 def inherited(part: Component, name: str) -> Any:
@@ -13,22 +14,48 @@ def inherited(part: Component, name: str) -> Any:
     ``planarWorld.g`` is that of the part of this name, or of one of the class ``PlanarWorld`` or its subclasses. None
     where there is none.
     """
-    where, _, what = part.OUTER[name].partition(".")
-    for node in part._node.ancestors():
-        parts = node.children
-        named = (parts[where],) if where in parts else tuple(parts.values())
-        for inner in named:
-            classes = (c.__name__ for c in type(inner).__mro__)
-            if inner is not part and (where in parts or where[:1].upper() + where[1:] in classes):
-                return getattr(inner, what, None)
-    return None
+    return _value(part, name, {})
 
 
 def inherit(model: Component) -> None:
     """Give the parts below what their classes take from the models around them, and nothing else gives."""
+    _give(model, {})
+
+
+Known = dict[tuple[int, str], Component | None]
+"""What was found: by the identity of a model's node and a name."""
+
+
+def _give(model: Component, known: Known) -> None:
     for part in model._node.children.values():
+        node = part._node
         for name in part.OUTER:
-            value = inherited(part, name)
-            if value is not None and name not in part._node.modifiers:
+            given = node.modifiers.get(name)
+            if given is not None and given is node.inherited.get(name):
+                del node.modifiers[name]  # of an earlier time: the model around it may be another
+            if name not in node.modifiers and (value := _value(part, name, known)) is not None:
                 part.modify(**{name: value})
-        inherit(part)
+                node.inherited[name] = node.modifiers[name]
+        _give(part, known)
+
+
+def _value(part: Component, name: str, known: Known) -> Any:
+    where, _, what = part.OUTER[name].partition(".")
+    for node in part._node.ancestors():
+        if (inner := _named(node, where, known)) is not None and inner is not part:
+            return getattr(inner, what, None)
+    return None
+
+
+def _named(node: Node[Component], where: str, known: Known) -> Component | None:
+    """The part of a model that has a name, or else a class of it."""
+    key = id(node), where
+    if key not in known:
+        title = where[:1].upper() + where[1:]
+        of_class = (
+            part
+            for part in node.children.values()
+            if any(cls.__name__ == title for cls in type(part).__mro__)
+        )
+        known[key] = node.children[where] if where in node.children else next(of_class, None)
+    return known[key]

@@ -75,7 +75,7 @@ def _warn_of_fractions(solution: Solution) -> None:
     names, kinds = zip(*system.wholes.items(), strict=True)
     values = np.abs(np.asarray(found[1])[:, [system.discrete[n][0] for n in names]])
     truth = np.asarray(kinds) == "bool"
-    wrong = (values != np.round(values)) | (truth & (values > 1))
+    wrong = np.isfinite(values) & ((values != np.round(values)) | (truth & (values > 1)))
     if wrong.any():
         row, i = np.argwhere(wrong)[0]
         t, wanted = float(np.asarray(found[0])[row]), "1 or 0" if truth[i] else "whole numbers"

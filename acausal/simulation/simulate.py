@@ -157,6 +157,7 @@ def simulate(
     _check_times(kind, ends, saved, functions)
     announce_inputs(system, given)
     packed = system.pack(params)
+    system.check(packed)
     u_start = select(evaluate_all(functions, array([start])), 0)
     steady = isinstance(x0, str) and x0 == "steady"
     steps = "adaptive steps" if ends is None else f"{len(ends) - 1} steps"

@@ -284,11 +284,13 @@ class Solution(ByName):
         exact = self.system.reduced.exact.tolist()
         states = [n if own else "" for n, own in zip(self.system.states, exact, strict=True)]
         for source, values in ((states, self.x), (self.system.inputs, self.u)):
-            found = {n: select(values, (..., source.index(n))) for n in new if n in source}
+            column = {n: i for i, n in enumerate(source)}
+            found = {n: select(values, (..., column[n])) for n in new if n in column}
             self._observed.update(found)
         new = tuple(n for n in new if n not in self._observed)
-        for name in new:
-            known_name(name, self.system.variables, "The model has no variable")
+        if unknown := set(new).difference(self.system.variables):
+            first = next(n for n in new if n in unknown)
+            known_name(first, self.system.variables, "The model has no variable")
         if new:
             self._compute(new)
         warn_of_nonfinite(self.system, self.values, {n: self._observed[n] for n in unread})
@@ -297,17 +299,17 @@ class Solution(ByName):
         """Read variables that are computed, and keep the arrays of the program that they were computed with."""
         program, (nodes, signs) = self.system.program, self.system.nodes_of(names)
         places = list(zip(*(side[nodes].tolist() for side in program.positions), strict=True))
-        left = [
-            n for n, (source, _) in zip(names, places, strict=True) if source not in self._arrays
-        ]
-        if left:
+        if any(a not in self._arrays for a, _ in places):
             sources = {source for source, _ in places}.difference(self._arrays)
             filled = program.filled(sources, self._arrays)
             few = sum(program.sizes[a] for a in filled) * self.t.size <= MOST_KEPT
-            found, kept = _read_all(
-                self.system, tuple(left), self.values, self._arrays, filled if few else ()
-            )
-            self._observed.update(zip(left, found, strict=True))
+            keep = filled if few else ()
+            # of an array that is kept one number is enough: XLA is slow to give thousands of results
+            own = {n: a for n, (a, _) in zip(names, places, strict=True) if a not in self._arrays}
+            of_kept = {a: n for n, a in own.items() if a in keep}
+            wanted = (*(n for n, a in own.items() if a not in keep), *of_kept.values())
+            found, kept = _read_all(self.system, wanted, self.values, self._arrays, keep)
+            self._observed.update(zip(wanted, found, strict=True))
             self._arrays.update(kept)
         for name, (source, index), sign in zip(names, places, signs.tolist(), strict=True):
             if name not in self._observed:

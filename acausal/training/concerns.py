@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal._jax import compiled
 from acausal.analysis import in_switches
-from acausal.codegen import Values
+from acausal.codegen import Values, failures
 from acausal.errors import listing, percent
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training.happened import grazing
@@ -55,6 +55,7 @@ def concerns(
             f"The condition {clause}: there the gradient does not exist, or is huge, and training may not get past it. "
             "Leave this part of the record out, or start from other values."
         )
+    yield from _not_as_asserted(problem, trained.best.trainable)
     unmoved = _unmoved(start, trained.last)
     exact = 0 <= trained.history.full_loss[0, 1] <= EXACT
     if unmoved and len(diverged) < epochs and not exact:
@@ -66,6 +67,14 @@ def concerns(
         )
     changes = problem.changes(trained.best.trainable)
     yield from problem.modifiers.at_limit(changes, problem.unit).values()
+
+
+def _not_as_asserted(problem: Problem, trained: Trainable) -> Iterator[str]:
+    """What the model asserts of its parameters, and does not hold for those that were trained."""
+    system = problem.system
+    if system.flat.assertions:
+        packed = problem.pack(problem.assemble(trained), trained).common
+        yield from failures(system.flat, system.layout.by_number(np.asarray(packed.values)))
 
 
 def _long_steps(problem: Problem, trained: Trained) -> str | None:

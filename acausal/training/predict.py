@@ -90,19 +90,19 @@ def predict(
     """Predict records; arguments and errors as those of `Fit.predict`."""
     records = {n: d.for_system(fit.system) for n, d in records_of(data).items()}
     check_records(x0, records)
-    if isinstance(x0, str):
-        x0 = "auto" if x0 == "fit" else x0  # the start of a prediction is found beside nothing else
+    # the start of a prediction is found beside nothing else
+    starts = dict(zip(records, by_record(records, x0), strict=True))
+    x0 = {name: "auto" if of == "fit" else of for name, of in starts.items()}
     own = _own_given(params, records)
     if executor is None:
         return Predictions(_predicted((fit, conformal), _Some(records, x0, own)), fit.system)
     need_workers(executor, "predict")
     fit.confidence()  # workers receive it
-    starts = dict(zip(records, by_record(records, x0), strict=True))
 
     def some(block: range) -> _Some:
         names = list(records)[block.start : block.stop]
         given = {n: own[n] for n in names if n in own}
-        return _Some({n: records[n] for n in names}, {n: starts[n] for n in names}, given)
+        return _Some({n: records[n] for n in names}, {n: x0[n] for n in names}, given)
 
     tasks = [some(block) for block in blocks(len(records))]
     parts = on_workers(executor, _predicted, (fit, conformal), tasks, "predict")

@@ -12,7 +12,7 @@ from .soft_magnetic import BaseData
 
 __modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.FixedShape"
 
-INSIDE_OUT = "a hollow cylinder is wider outside"
+_INSIDE_OUT = "a hollow cylinder is wider outside"
 """What it means that its radii are not in order."""
 
 
@@ -124,7 +124,7 @@ class HollowCylinderAxialFlux(FixedShape):
 
     def equations(self) -> Iterator[Any]:
         yield from super().equations()
-        yield ac.Assert(self.r_i < self.r_o, INSIDE_OUT)
+        yield ac.Assert(self.r_i < self.r_o, _INSIDE_OUT)
         area = ac.pi * (self.r_o**2 - self.r_i**2)
         yield from self._stated(area, area / self.l)
 
@@ -144,7 +144,7 @@ class HollowCylinderRadialFlux(FixedShape):
 
     def equations(self) -> Iterator[Any]:
         yield from super().equations()
-        yield ac.Assert(self.r_i < self.r_o, INSIDE_OUT)
+        yield ac.Assert(self.r_i < self.r_o, _INSIDE_OUT)
         width = self.l * self.alpha
         area = width * (self.r_o + self.r_i) / 2
         yield from self._stated(area, width / ac.log(self.r_o / self.r_i))
@@ -162,7 +162,7 @@ class HollowCylinderCircumferentialFlux(FixedShape):
 
     def equations(self) -> Iterator[Any]:
         yield from super().equations()
-        yield ac.Assert(self.r_i < self.r_o, INSIDE_OUT)
+        yield ac.Assert(self.r_i < self.r_o, _INSIDE_OUT)
         area = self.l * (self.r_o - self.r_i)
         yield from self._stated(area, area / ((self.r_o + self.r_i) / 2 * self.alpha))
 

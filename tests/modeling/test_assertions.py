@@ -72,7 +72,7 @@ def test_the_first_point_is_named_where_something_does_not_hold(two: ac.System) 
     "given",
     [
         lambda system: ac.simulate(system, 1.0, params={"second.height": 0.2}),
-        lambda system: system.pack({"second.height": 0.2}),
+        lambda system: ac.linearize(system, params={"second.height": 0.2}),
         lambda system: ac.compile(Two(height=0.2)),
     ],
 )

@@ -207,4 +207,6 @@ def test_a_fixed_start_that_the_record_does_not_have_is_named() -> None:
         fit = ac.fit(
             system, ac.Data(t, {**given, "y": y}), ["y"], modifiers=["tau"], progress=False
         )
-    assert "hidden did not start where the model says (leave it open: x0='fit')" in str(fit.verdict)
+    assert "hidden did not start where it was taken to (leave it open: x0='fit')" in str(
+        fit.verdict
+    )

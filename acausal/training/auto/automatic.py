@@ -246,21 +246,19 @@ def _begin(
 
 
 def _followed(start: LinearStart) -> int:
-    """How many first samples a start follows in each record, before it leaves more than it may; `FEWEST` at least."""
+    """How many first samples a start follows in all records, before it leaves more than it may; `FEWEST` at least."""
     problem, records = start.problem, start.problem.records
+    counts = np.asarray(records.weight) > 0
     with np.errstate(all="ignore"):
         off = np.asarray(problem.simulate(start.trainable).y) - np.asarray(records.y)
-        squares = (
-            np.where(np.asarray(records.weight) > 0, off / np.asarray(records.sigma), 0.0) ** 2
-        )
-    of_all = squares.sum(axis=1)
-    followed = FEWEST
+        squares = np.where(counts, off / np.asarray(records.sigma), 0.0) ** 2
+    followed: list[int] = []
     for k in range(records.count):
-        own = of_all[records.rows_of(k)]
-        mean = np.cumsum(own) / np.arange(1, len(own) + 1)
-        lost = ~(mean < EXPLAINS**2 * squares.shape[1])
-        followed = max(followed, int(np.argmax(np.append(lost, True))))
-    return followed
+        own = records.rows_of(k)
+        left = np.cumsum(squares[own].sum(axis=1))
+        lost = ~(left <= EXPLAINS**2 * np.cumsum(counts[own].sum(axis=1)))
+        followed.append(int(np.argmax(np.append(lost, True))))
+    return max(FEWEST, min(followed))
 
 
 def _find_misread(

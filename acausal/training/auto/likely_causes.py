@@ -42,6 +42,9 @@ MOST = 2
 MOST_LATE = 0.25
 """Nothing comes later than by this part of a record."""
 
+MOST_STARTS = 50
+"""Of more states no starts are suspected, as each costs a simulation."""
+
 AT_ONCE = 16
 """Parameters whose effects are computed at once."""
 
@@ -101,7 +104,7 @@ class OtherStart(Cause):
 
     def sentence(self, size: float) -> str:
         """Which one."""
-        return f"{self.names[0]} did not start where the model says"
+        return f"{self.names[0]} did not start where it was taken to"
 
     def remedy(self, size: float) -> str:
         """How to leave it open."""
@@ -228,6 +231,8 @@ def _starts(fit: TrainedModel) -> Iterator[Cause]:
     scale = 0 * known if problem.start_prior is None else np.asarray(problem.start_prior.scale)
     held = ~known & (scale == 0)
     places = np.flatnonzero(held.any(axis=0))
+    if len(places) > MOST_STARTS:
+        return
     names = [problem.system.states[i] for i in places]
     moved = np.where(held, problem.system.nominal, scale)
     freed = replace(problem, start_prior=StartPrior(jnp.asarray(moved)))

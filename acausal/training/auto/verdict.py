@@ -157,13 +157,12 @@ def _odd_records(problem: Problem, simulated: Simulated) -> Iterator[str]:
     records = problem.records
     if records.count < 2:
         return
+    counts = np.asarray(records.weight) > 0
     with np.errstate(all="ignore"):
         off = (np.asarray(simulated.y) - np.asarray(records.y)) / np.asarray(records.sigma)
-    counts = np.asarray(records.weight) > 0
-    left: list[float] = []
-    for own in map(records.rows_of, range(records.count)):
-        count = counts[own].sum()
-        left.append(float(np.sqrt(np.sum(off[own][counts[own]] ** 2) / count)) if count else 0.0)
+        squares = np.where(counts, off**2, 0.0)
+    rows = [records.rows_of(k) for k in range(records.count)]
+    left = [float(np.sqrt(squares[own].sum() / max(counts[own].sum(), 1))) for own in rows]
     worst = int(np.argmax(left))
     others = max(x for k, x in enumerate(left) if k != worst)
     if left[worst] > ODD * others > 0:
