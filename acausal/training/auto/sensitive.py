@@ -48,10 +48,10 @@ def sensitivity_of_each(
     moved = _moved(problem, trainable, simulated)
     if moved is None:
         return [0.0] * problem.records.count
+    rows = [problem.records.rows_of(k) for k in range(problem.records.count)]
     with np.errstate(all="ignore"):
         change = (np.asarray(moved.y) - np.asarray(simulated.y)) / np.asarray(problem.records.sigma)
-    rows = [problem.records.rows_of(k) for k in range(problem.records.count)]
-    return [float(np.sqrt(np.mean(change[own] ** 2))) / OFF for own in rows]
+        return [float(np.sqrt(np.mean(change[own] ** 2))) / OFF for own in rows]
 
 
 def is_sensitive(problem: Problem, trainable: Trainable, simulated: Simulated) -> bool:

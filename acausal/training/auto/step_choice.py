@@ -129,5 +129,6 @@ def finer_steps(step: StepChoice, error: float, loss: float) -> StepChoice | Non
 def difference(problem: Problem, one: np.ndarray, other: np.ndarray) -> float:
     """The root mean square difference of predictions, as the loss counts it."""
     counts = np.asarray(problem.records.weight) > 0
-    squares = np.where(counts, (one - other) / np.asarray(problem.records.sigma), 0.0) ** 2
-    return float(np.sqrt(np.sum(squares.sum(axis=0) / np.maximum(counts.sum(axis=0), 1))))
+    with np.errstate(all="ignore"):
+        squares = np.where(counts, (one - other) / np.asarray(problem.records.sigma), 0.0) ** 2
+        return float(np.sqrt(np.sum(squares.sum(axis=0) / np.maximum(counts.sum(axis=0), 1))))
