@@ -18,7 +18,7 @@ from acausal.analysis.operating_point import OperatingPoint
 from acausal.analysis.tracking import numbers_by_name
 from acausal.codegen import Values
 from acausal.errors import DataError, cut_short, listing, need_compiled, need_package, shown, warn
-from acausal.modeling import names_in, with_elements
+from acausal.modeling import antiderivatives, names_in, with_elements
 
 if TYPE_CHECKING:
     from control import StateSpace
@@ -115,14 +115,12 @@ class Linearization:
 
     def _rates(self) -> list[tuple[int, int, int]]:
         """Inputs that are derivatives of others: their places, those of the others, and how often."""
-        found: list[tuple[int, int, int]] = []
-        for place, name in enumerate(self.inputs):
-            order = 0
-            while name.startswith("der("):
-                name, order = name.removeprefix("der(").removesuffix(")"), order + 1
-            if order and name in self.inputs:
-                found.append((place, self.inputs.index(name), order))
-        return found
+        chains = enumerate(map(antiderivatives, self.inputs))
+        return [
+            (place, self.inputs.index(chain[-1]), len(chain) - 1)
+            for place, chain in chains
+            if len(chain) > 1 and chain[-1] in self.inputs
+        ]
 
     def step_response(
         self, t: Float[ArrayLike, " n"] | float | None = None

@@ -62,10 +62,10 @@ class Assert:
             raise DeclarationError(self.text)
         holds = sp.false if known else condition(given, "the condition of Assert(...)")
         object.__setattr__(self, "condition", holds)
-        beyond = self.truth.atoms(Previous, Tick, ModuleCall, der) | (
-            {INITIAL} & self.truth.free_symbols
-        )
-        if beyond:
+        truth = self.truth
+        if beyond := truth.atoms(Previous, Tick, ModuleCall, der) | (
+            {INITIAL} & truth.free_symbols
+        ):
             raise DeclarationError(
                 f"Assert(...) reads {min(map(str, beyond))}; give that to a variable by ac.Eq(variable, ...), and "
                 "compare that"

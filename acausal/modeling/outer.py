@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 from acausal.modeling.component import Component
@@ -51,11 +52,13 @@ def _named(node: Node[Component], where: str, known: Known) -> Component | None:
     """The part of a model that has a name, or else a class of it."""
     key = id(node), where
     if key not in known:
-        title = where[:1].upper() + where[1:]
-        of_class = (
-            part
-            for part in node.children.values()
-            if any(cls.__name__ == title for cls in type(part).__mro__)
-        )
-        known[key] = node.children[where] if where in node.children else next(of_class, None)
+        parts = node.children
+        of_class = (part for part in parts.values() if _is_of(type(part), where))
+        known[key] = parts[where] if where in parts else next(of_class, None)
     return known[key]
+
+
+@cache
+def _is_of(cls: type, where: str) -> bool:
+    """Whether a class is what a name is called after: ``planarWorld`` after ``PlanarWorld``."""
+    return any(base.__name__ == where[:1].upper() + where[1:] for base in cls.__mro__)

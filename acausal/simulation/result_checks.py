@@ -95,7 +95,7 @@ def warn_of_few_points(solution: Solution, span: float) -> None:
     count, system = len(solution.t), solution.system
     apart = span / count
     period = np.inf if system.inputs or not edges else 2 * span / edges  # inputs bend at samples
-    if steps > len(solution.t) / PART_OF_PERIOD and system.edges:
+    if steps > count / PART_OF_PERIOD and system.edges:
         step = system.edges.ahead(solution.values.packed, start, 1e-9 * span).longest
         period = min(period, float(step) / PART_OF_PERIOD)
     if period < apart:

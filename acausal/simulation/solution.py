@@ -112,7 +112,8 @@ class Solution(ByName):
         Raises:
             DataError: while JAX traces, and for runs side by side (`jax.vmap`).
         """
-        return EventList() if self.log is None else self._known_log(self.log).events(self.system)
+        log = self._known_log
+        return EventList() if log is None else log.events(self.system)
 
     @cached_property
     def before(self) -> Solution:
@@ -128,14 +129,16 @@ class Solution(ByName):
         """All variables just after each event; as `before`."""
         return self._beside(after=True)
 
-    def _known_log(self, log: Log) -> Log:
-        """The log, unless derivatives are being taken: it has none."""
-        if traced(self.values):
+    @property
+    def _known_log(self) -> Log | None:
+        """The log; it is refused where derivatives are taken, as it has none."""
+        if self.log is not None and traced(self.values):
             raise DataError(EVENTS_UNKNOWN)
-        return log
+        return self.log
 
     def _beside(self, *, after: bool) -> Solution:
-        log, n = self.log and self._known_log(self.log).kept(), len(self.system.states)
+        known_log, n = self._known_log, len(self.system.states)
+        log = None if known_log is None else known_log.kept()
         if log is None:
             nothing = self.values._replace(t=self.t[:0], x=self.x[:0], u=self.u[:0])
             return Solution(nothing, self.system)

@@ -424,6 +424,9 @@ def test_fit(typed, folder: Path) -> None:
     assert found["parameters"]["spring.c"] == pytest.approx(60.0, rel=0.01)
     assert found["loss"] < 0.1 * found["loss_before"]
     assert found["files"] == ["Oscillator-trained.safetensors"]
+    assert isinstance(found["good"], bool)
+    assert "explains" in found["verdict"][0]
+    assert found["verdict"][0] in typed(*fit, "-o", "epochs=10")[1]
 
     again = ("show", "oscillator.json", "--only", "parameters", "--json")
     _, out, _ = typed(*again, "--params", "Oscillator-trained.safetensors")

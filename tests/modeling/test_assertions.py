@@ -10,7 +10,15 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import blocks, digital, electrical, fluid, hydraulic, translational
+from acausal.components import (
+    blocks,
+    digital,
+    electrical,
+    fluid,
+    hydraulic,
+    magnetic,
+    translational,
+)
 from acausal.components.hydraulic.liquid import Liquid
 
 
@@ -169,6 +177,7 @@ IMPOSSIBLE: list[tuple[Callable[[], ac.Component], str]] = [
     (lambda: electrical.IdealizedOpAmpLimited(Vps=-15.0, Vns=15.0), "Vns < Vps"),
     (lambda: hydraulic.StaticPipe(length=1.0, diameter=0.0), "diameter > 0"),
     (lambda: hydraulic.Tube(length=1.0, diameter=0.1, n=0), "n=0 is out of range: at least 1"),
+    (lambda: magnetic.HollowCylinderRadialFlux(r_i=0.03), "r_i < r_o .*wider outside"),
     (lambda: digital.Adder(n=0), "n=0 is out of range: at least 1"),
     (lambda: blocks.PadeDelay(delayTime=1.0, n=2, m=3), "m=3 must lie between 1 and n=2"),
     (
@@ -200,7 +209,36 @@ def test_tanks_say_that_they_run_empty_or_over() -> None:
 
     with pytest.warns(UserWarning, match="OpenTank 'tank': level .* has run empty"):
         ac.simulate(ac.compile(Drained()), 20.0)
-    assert fluid.OpenTank  # which has a rim, too
+
+
+@pytest.mark.parametrize(("flow", "said"), [(1e-3, "overflows"), (-1e-3, "has run empty")])
+def test_a_tank_has_a_bottom_and_a_rim(flow: float, said: str) -> None:
+    class Filled(ac.Component):
+        def __init__(self) -> None:
+            super().__init__()
+            self.tank = fluid.OpenTank(ATank=1e-2, hTank=0.2, level=ac.Start(0.1, fixed=True))
+            self.pump = fluid.VolumeFlow(constantVolumeFlow=flow)
+            self.source = fluid.Ambient(
+                constantAmbientPressure=0.0, constantAmbientTemperature=293.0
+            )
+            self.connect(self.source.flowPort, self.pump.flowPort_a)
+            self.connect(self.pump.flowPort_b, self.tank.flowPort)
+
+    with pytest.warns(UserWarning, match=f"OpenTank 'tank': level .* {said}"):
+        ac.simulate(ac.compile(Filled()), 2.0)
+
+
+def test_a_piston_says_that_it_passes_the_end_of_its_cylinder() -> None:
+    class Pushed(ac.Component):
+        def __init__(self) -> None:
+            super().__init__()
+            self.cylinder = hydraulic.Actuator(area_a=1e-3, length_a=0.1)
+            self.high, self.low = hydraulic.Boundary(p=1e5), hydraulic.Boundary(p=0.0)
+            self.connect(self.high.port, self.cylinder.port_a)
+            self.connect(self.low.port, self.cylinder.port_b)
+
+    with pytest.warns(UserWarning, match="Actuator 'cylinder': .* passed the end of chamber b"):
+        ac.simulate(ac.compile(Pushed()), 0.1)
 
 
 class Halves(ac.Component):

@@ -477,3 +477,63 @@ def test_a_law_that_is_not_known_where_it_is_steep_is_said_to_be() -> None:
     assert sentence is not None
     assert sentence.startswith("brake.net is known to 10 % of its range only near ")
     assert "where it is steep" in sentence
+
+
+class Room(ac.Component):
+    """A room whose heater a thermostat switches."""
+
+    C = ac.Parameter(3.0e6, min=0)
+    G = ac.Parameter(180.0, min=0)
+    low = ac.Parameter(18.85)
+    high = ac.Parameter(21.85)
+    outside = ac.Input()
+    T = ac.Variable(start=17.0)
+    on = ac.Discrete(1, kind="bool")
+
+    def equations(self):
+        yield ac.Eq(self.C * ac.der(self.T), 5000 * self.on - self.G * (self.T - self.outside))
+        still = (ac.pre(self.on) > 0.5) & (self.high > self.T)
+        yield ac.Eq(self.on, (self.low > self.T) | still)
+
+
+@pytest.mark.slow
+def test_a_thermostat_is_found_from_the_samples_that_its_start_follows() -> None:
+    """Fifty first samples are five cycles: too many to begin with where all four numbers are a third off."""
+    true = {"C": 2.2e6, "G": 130.0, "low": 20.0, "high": 21.5}
+    system, t = ac.compile(Room()), np.arange(0, 86401, 300.0)
+    outside = 5 + 6 * np.sin(2 * np.pi * t / 86400 - 2) + np.sin(2 * np.pi * t / 7000)
+    run = ac.simulate(system, t[-1], saveat=t, inputs={"outside": (t, outside)}, params=true)
+    T = np.asarray(run["T"]) + 0.045 * np.random.default_rng(7).standard_normal(len(t))
+    record = ac.Data(t, {"outside": outside, "T": T})
+    fit = ac.fit(system, record, ["T"], modifiers=list(true), progress=False)
+    assert fit.stages[0].title == "first 12 samples"
+    for name, value in true.items():
+        assert float(fit.params[name]) == pytest.approx(value, rel=0.02)
+    assert "'on' as the model starts" in repr(fit)
+
+
+class Rotor(ac.Component):
+    """A rotor with friction."""
+
+    J = ac.Parameter(1.0, min=0)
+    d = ac.Parameter(0.5, min=0)
+    tau = ac.Input()
+    w = ac.Variable(start=0.0, fixed=True)
+
+    def equations(self):
+        yield ac.Eq(self.J * ac.der(self.w), self.tau - self.d * self.w)
+
+
+def test_steps_that_are_too_long_and_a_record_that_is_another_are_told() -> None:
+    system, t = ac.compile(Rotor()), np.arange(0, 10, 0.25)
+    records: dict[str, ac.Data] = {}
+    for name, phase, sign in (("a", 0.0, 1), ("b", 1.0, 1), ("c", 2.0, -1)):
+        tau = np.sin(2 * t + phase)
+        run = ac.simulate(system, t[-1], saveat=t, inputs={"tau": (t, tau)}, params={"d": 1.0})
+        records[name] = ac.Data(t, {"tau": tau, "w": sign * np.asarray(run["w"])})
+    options = {"modifiers": ["d"], "strategy": "gauss_newton", "progress": False}
+    fit = ac.fit(system, records, ["w"], **options)
+    assert "Of 'c' it leaves" in str(fit.verdict)
+    fit = ac.fit(system, records["a"], ["w"], solver="heun", **options)
+    assert "Its steps err by" in str(fit.verdict)
+    assert "or solver='rk4'" in str(fit.verdict)

@@ -99,8 +99,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     loose = [*_all_taken(problem), *_far_starts(fit), *(_hardly_determined(fit) if good else ())]
     good = good and not loose and (share <= SMALL or not left)
     suspect = list(outliers(problem, simulated))
-    of_records = [] if good else list(_odd_records(problem, simulated))
-    others = [*of_records, *suspect, *at_limits(problem, simulated), *loose, *left]
+    odd = () if good else _odd_records(fit)
+    others = [*odd, *suspect, *at_limits(problem, simulated), *loose, *left]
     if (
         not (down or share <= SMALL)
         and np.isfinite(fit.loss)
@@ -152,23 +152,22 @@ def explains(problem: Problem, loss: float, noise: float) -> bool:
     return bool(np.isfinite(loss) and (loss <= DOWN_TO * noise or small))
 
 
-def _odd_records(problem: Problem, simulated: Simulated) -> Iterator[str]:
+def _odd_records(fit: TrainedModel) -> Iterator[str]:
     """A record that is explained far worse than the others."""
-    records = problem.records
-    if records.count < 2:
+    left: dict[str, float] = {}
+    for name, record in fit.records.items():
+        known = [
+            error / size for error, size in zip(record.rms.values(), record.sigma, strict=True)
+        ]
+        known = [share for share in known if np.isfinite(share)]
+        left |= {name: float(np.linalg.norm(known) / np.sqrt(len(known)))} if known else {}
+    if len(left) < 2:
         return
-    counts = np.asarray(records.weight) > 0
-    with np.errstate(all="ignore"):
-        off = (np.asarray(simulated.y) - np.asarray(records.y)) / np.asarray(records.sigma)
-        squares = np.where(counts, off**2, 0.0)
-    rows = [records.rows_of(k) for k in range(records.count)]
-    left = [float(np.sqrt(squares[own].sum() / max(counts[own].sum(), 1))) for own in rows]
-    worst = int(np.argmax(left))
-    others = max(x for k, x in enumerate(left) if k != worst)
-    if left[worst] > ODD * others > 0:
+    *others, worst = sorted(left, key=left.__getitem__)
+    if left[worst] > ODD * left[others[-1]] > 0:
         yield (
-            f"Of '{records.names[worst]}' it leaves {percent(left[worst])}, of each other record {percent(others)} at "
-            "most: look at that one first (a sign, a unit, another load)."
+            f"Of '{worst}' it leaves {percent(left[worst])}, of each other record {percent(left[others[-1]])} at most: "
+            "look at that one first (a sign, a unit, another load)."
         )
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -453,3 +454,23 @@ def test_an_event_that_rounding_parts_from_the_end_of_an_implicit_step_costs_no_
     without = ac.simulate(system, 1.0, params={"at": 5.0}, **steps)
     np.testing.assert_allclose(beside["x"], without["x"], atol=1e-12)
     assert beside["on"][-1] == 1
+
+
+@pytest.mark.parametrize("read", [lambda run: run.events[0].t, lambda run: run.after["v"][0]])
+def test_events_are_refused_where_derivatives_are_taken(read: Any) -> None:
+    """They have none: zero would be taken for one."""
+
+    class Dropped(ac.Component):
+        h = ac.Variable(start=1.0, fixed=True)
+        v = ac.Variable(start=0.0, fixed=True)
+        e = ac.Parameter(0.8)
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.h), self.v)
+            yield ac.Eq(ac.der(self.v), -9.81)
+            yield ac.When(self.h < 0, ac.Reinit(self.v, -self.e * ac.pre(self.v)))
+
+    system = ac.compile(Dropped())
+    assert float(read(ac.simulate(system, 0.6))) > 0
+    with pytest.raises(ac.DataError, match="have no derivatives"):
+        jax.grad(lambda e: read(ac.simulate(system, 0.6, params={"e": e})))(0.8)
