@@ -239,10 +239,7 @@ class System(LeavesCaches):
     @cached_property
     def remembered(self) -> tuple[str, ...]:
         """Names of the discrete variables whose value before an event decides on that after it."""
-        groups = self.flat.events.all
-        read = [g.group.variables[:, np.asarray(g.previous, bool)].ravel() for g in groups]
-        known = np.unique(np.concatenate([np.zeros(0, np.int64), *read]))
-        names = map(self.flat.layout.variable, np.intersect1d(known, self.flat.discrete).tolist())
+        names = map(self.flat.layout.variable, self.flat.remembered.tolist())
         return tuple(n for n in names if not is_hidden(n))
 
     @cached_property
@@ -616,7 +613,7 @@ class System(LeavesCaches):
         """The values at a time before states are found: these and discrete variables have their starts."""
         u = array(np.zeros(len(self.inputs))) if u0 is None else u0
         at = self.values(array(t0), self.initializer.starts(packed, x0), u, packed)
-        return at._replace(d=self.initializer.conditions.discrete_start(packed))
+        return at._replace(d=self.initializer.discrete_starts(packed, x0))
 
     def watching(self) -> System:
         """The model in which the library's conditions at which values jump are events: their instants have derivatives.
@@ -652,16 +649,16 @@ class System(LeavesCaches):
         return _derived(self.model, flat), sources
 
     def modes(self, values: Values) -> Values:
-        """The same values with the discrete variables that agree with them, found from their start values.
+        """The same values with the discrete variables that agree with them, found from these or from their own starts.
 
         States that jump at once have done so.
         """
         if self.events is None:
             return values
-        t, x = jnp.asarray(values.t, values.x.dtype), values.x
-        start = values._replace(
-            t=t, d=self.initializer.conditions.discrete_start(values.packed).astype(x.dtype)
-        )
+        t, x, d = jnp.asarray(values.t, values.x.dtype), values.x, values.d
+        d = self.initializer.discrete_starts(values.packed) if d is None else d
+        assert d is not None
+        start = values._replace(t=t, d=d.astype(x.dtype))
         return start_of(self.events, start, lambda d: x, self.describe_discrete)
 
     def in_modes(self, values: Values) -> Values:

@@ -316,7 +316,8 @@ def _lay_out(
     def at(packed: Packed) -> Values:
         chosen: Any = given if isinstance(given, str) or close else {**begun, **given}
         x = system.initial_state(packed, chosen or None, inputs=u[0], t0=span[0])
-        start = system.values(span[0], x, u[0], packed)
+        modes = system.initializer.discrete_starts(packed, chosen)
+        start = system.values(span[0], x, u[0], packed)._replace(d=modes)
         if close and begun:
             x = x.at[np.asarray(places)].set(np.array([*begun.values()]))
             start = start._replace(x=system.closed(start._replace(x=x)))

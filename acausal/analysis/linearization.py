@@ -409,7 +409,8 @@ def point_of(
     packed, given = system.pack(params), system.inputs_at(t, inputs)
     system.check(packed)
     state = system.initial_state(packed, x, inputs=given, t0=t)
-    return system.in_modes(system.values(t, state, given, packed))
+    begun = system.initializer.discrete_starts(packed, x)
+    return system.in_modes(system.values(t, state, given, packed)._replace(d=begun))
 
 
 def linearize(

@@ -88,6 +88,14 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
             [watched, np.setdiff1d(declared(self.layout, Discrete), [*watched, *self.given])]
         )
 
+    @cached_property
+    def remembered(self) -> Integers:
+        """The discrete variables whose value before an event decides on that after it."""
+        groups = self.events.all
+        read = [g.group.variables[:, np.asarray(g.previous, bool)].ravel() for g in groups]
+        known = np.concatenate([np.zeros(0, np.int64), *read])
+        return np.intersect1d(np.unique(known), self.discrete)
+
     def equations(
         self, *, initial: bool = False, at_events: bool = True
     ) -> Iterator[EquationGroup]:

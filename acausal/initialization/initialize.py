@@ -23,7 +23,7 @@ from acausal.codegen import (
     read,
 )
 from acausal.errors import DataError, InitializationError, listing, nearest, need_flag, shown
-from acausal.flattening import LeavesCaches
+from acausal.flattening import LeavesCaches, is_hidden
 from acausal.initialization.conditions import Conditions, initial_conditions
 from acausal.initialization.solve import (
     LEFT_OVER,
@@ -129,6 +129,18 @@ class Initializer(LeavesCaches):
             return self._posed(starts, self.by_state(x0 or {}), False, False)[0]
         whole = self._whole(x0)
         return jnp.concatenate([whole, starts[len(whole) :]])
+
+    def discrete_starts(
+        self, packed: Packed, x0: Mapping[str, ArrayLike] | ArrayLike | None = None
+    ) -> Float[Array, " n_discrete"] | None:
+        """What discrete variables begin with: what ``x0`` gives by name, and their start values; None without any."""
+        if not len(self.reduced.discrete):
+            return None
+        starts = self.conditions.discrete_start(packed)
+        given = self.given(x0)[1] if isinstance(x0, Mapping) else {}
+        for place, value in given.items():
+            starts = starts.at[place].set(value)
+        return starts
 
     def solves(self, x0: Any, steady: bool | Sequence[str], least_squares: bool) -> bool:
         """Whether states follow from equations, and not from starts and ``x0`` alone."""
@@ -264,11 +276,16 @@ class Initializer(LeavesCaches):
         """Values by state; a variable that is a state under another name gives the state's.
 
         Raises:
-            DataError: for what is not a state, or two values of one.
+            DataError: for what neither is a state nor remembered by events, or two values of one.
         """
+        return self.given(given)[0]
+
+    def given(self, given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[int, Any]]:
+        """Values by state, and by place of a discrete variable; errors as of `by_state`."""
         found: dict[str, Any] = {}
+        discrete: dict[int, Any] = {}
         own = frozenset(self.names)
-        given = by_element(given, own, "x0")
+        given = by_element(given, own.union(self._remembered), "x0")
         for name in names_in(given, "x0"):
             state, value = name, given[name]
             index = self.reduced.model.layout.find_variable(name)
@@ -276,11 +293,9 @@ class Initializer(LeavesCaches):
                 node, sign = self.reduced.resolve(index)
                 places = np.flatnonzero(self.reduced.meant[self.reduced.states] == node).tolist()
                 if node in self.reduced.discrete:
-                    raise DataError(
-                        f"x0: '{name}' is no state but a discrete variable, which events change; give its start where "
-                        f"its component is made: {name.rpartition('.')[2]}=ac.Start(...), also by a parameter, which "
-                        "params= changes"
-                    )
+                    self._need_discrete(name, node, value)
+                    discrete[self._places[node]] = -value if sign < 0 else value
+                    continue
                 state = self.names[places[0]] if places else name
                 value = -value if sign < 0 and is_number(value) else value
             if state not in own:
@@ -290,7 +305,36 @@ class Initializer(LeavesCaches):
                     f"x0: '{name}' and the state '{state}' are the same; give one of them"
                 )
             found[state] = value
-        return found
+        return found, discrete
+
+    @cached_property
+    def _places(self) -> dict[int, int]:
+        """By node of a discrete variable its place."""
+        return {node: place for place, node in enumerate(self.reduced.discrete.tolist())}
+
+    @cached_property
+    def _remembered(self) -> dict[str, int]:
+        """By name of the discrete variables that begin with a value, their nodes."""
+        flat = self.reduced.model
+        names = {flat.layout.variable(i): i for i in flat.remembered.tolist()}
+        return {n: self.reduced.resolve(i)[0] for n, i in names.items() if not is_hidden(n)}
+
+    def _need_discrete(self, name: str, node: int, value: Any) -> None:
+        """Refuse what cannot be the start of a discrete variable."""
+        if node not in self._remembered.values():
+            known = f" Give {listing(self._remembered, 6)}." if self._remembered else ""
+            raise DataError(
+                f"x0: '{name}' follows from other variables at the start, and has no value of its own.{known}"
+            )
+        layout = self.reduced.model.layout
+        index = layout.find_variable(name)
+        kind = "real" if index is None else getattr(layout.variable_declaration(index), "kind", "real")
+        if not is_number(value):
+            raise DataError(f"x0: '{name}' is {shown(value)}; give a real number that is finite.")
+        number = None if kind == "real" or traced(value) else float(value)
+        if number is not None and number not in ((0.0, 1.0) if kind == "bool" else (round(number),)):
+            what = "True or False" if kind == "bool" else "a whole number"
+            raise DataError(f"x0: '{name}' is {shown(value)}; give {what}.")
 
     def _known(self, argument: str, names: Sequence[str]) -> None:
         for name in names:

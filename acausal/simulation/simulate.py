@@ -97,8 +97,9 @@ def simulate(
             `Data` says what comes before or after them. A derivative of an input, ``der(...)``, can be left out: it is
             that of the function, or of the interpolation, which is then cubic by default.
         params: as `system.parameters` gives them, the default.
-        x0: initial values by name, or the whole state; by default the model's start values. ``"steady"`` starts at
-            rest, with the inputs as they are then; fixed starts stay as they are, and must be those of rest.
+        x0: initial values by name, also of discrete variables that events remember, or the whole state; by default
+            the model's start values. ``"steady"`` starts at rest, with the inputs as they are then; fixed starts stay
+            as they are, and must be those of rest.
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
             it goes on with BDF from where stability, and not accuracy, limits the steps: where the model is stiff.
             ``"stiff"`` is implicit from the start: BDF, Kvaerno5 with events, and Kvaerno3 in fixed steps.

@@ -297,13 +297,14 @@ def _on_workers(
 
 def _role(system: System, name: str) -> str:
     """The argument of `simulate` that takes the values of a name."""
+    starts = (*system.states, *system.remembered)
     for role, known in (
-        ("params", system.layout.names), ("inputs", system.inputs), ("x0", system.states),
+        ("params", system.layout.names), ("inputs", system.inputs), ("x0", starts),
     ):  # fmt: skip
         if name in known:
             return role
     reason = system.layout.why_not_free(name)
-    known = (*system.layout.names, *system.inputs, *system.states)
+    known = (*system.layout.names, *system.inputs, *starts)
     raise DataError(
         f"over: {reason}." if reason
         else f"over: '{name}' is no parameter, input or state; {nearest(name, known)}"

@@ -42,6 +42,7 @@ from acausal.training.objective.regularizers import Context, Regularizer, Trajec
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
 from acausal.training.objective.start_prior import start_prior
+from acausal.training.objective.start_modes import with_start_modes
 from acausal.training.objective.start_sizes import with_sizes
 from acausal.training.objective.streamed import Streamed
 from acausal.training.objective.timing import Timing, timing
@@ -139,7 +140,7 @@ def build_problem(
     )
     problem.check_rest()
     _refuse_constant(problem)
-    problem = with_sizes(problem)
+    problem = with_sizes(with_start_modes(problem, problem.start(), data, options.x0))
     if shooting:
         problem = replace(problem, shooting=_shooting_states(problem, data))
     return replace(problem, context=_context(problem)) if options.penalties else problem

@@ -24,6 +24,7 @@ from acausal.training.objective.held_out import over
 from acausal.training.objective.initial_state import InitialState, by_record, check_records
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.start_prior import StartPrior, start_prior
+from acausal.training.objective.start_modes import with_start_modes
 from acausal.training.objective.start_sizes import found_starts, with_sizes
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.prediction import Prediction, Predictions
@@ -251,6 +252,7 @@ def _own(fit: TrainedModel, some: _Some) -> Own:
     numbers = tuple(map(str, range(problem.records.count)))
     problem = replace(problem, records=replace(problem.records, names=numbers))
     trainable = problem.over_other_records(fit.trained)
+    problem = with_start_modes(problem, trainable, records, x0)
     laid, names = problem.records, problem.per_record.names
     measured = np.isfinite(laid.measured)
     has = np.array([measured[laid.rows_of(k)].any() for k in range(laid.count)])

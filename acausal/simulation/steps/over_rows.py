@@ -139,12 +139,14 @@ def integrate_in_steps(
     direct: bool = False,
     runs: Runs | None = None,
     tries: int | None = None,
+    discrete: Float[Array, "R n_discrete"] | None = None,
 ) -> Integrated:
     """Integrate the model over some rows. Pure: trace, differentiate and map it.
 
     Arguments:
         system, start, substeps, outputs, direct, runs: as for `fixed_steps.integrate`. Discrete variables begin as
             ``start`` says, else as agrees with the states.
+        discrete: the start values of discrete variables in each run; by default those of the model.
         steps: the n rows and their inputs; steps end at each where the model has inputs, or events.
         solver: adaptive steps; or, for a model with events, a scheme of fixed ones.
         tries: so many steps of given length that a row takes on average at most, those that only search for the instant
@@ -156,7 +158,9 @@ def integrate_in_steps(
     events, dtype = system.events, start.x.dtype
     d0 = None
     if events is not None:
-        d0 = system.modes(start).d if start.d is None else start.d
+        d0 = start.d
+        if d0 is None:
+            d0 = system.modes(start if discrete is None else start._replace(d=discrete[0])).d
     clock = Clock.of(system, start.packed, steps, runs).with_discrete(d0)
     edges, n = clock.edges, len(steps.t)
     restarts = None if runs is None else runs.restarts
@@ -184,7 +188,7 @@ def integrate_in_steps(
     if runs is not None and restarts is not None:
         first = restarts.first[1:], None
         if events is not None:
-            first = _firsts(system, clock, runs)
+            first = _firsts(system, clock, runs, discrete)
         others = jax.tree.map(spread, (restarts.begins[1:], *first))
     problem = Integration(
         clock,
@@ -225,17 +229,21 @@ def _divided(edges: Float[Array, " n_1"], substeps: int) -> Float[Array, " n_bre
 
 
 def _firsts(
-    system: System, clock: Clock, runs: Runs
+    system: System,
+    clock: Clock,
+    runs: Runs,
+    discrete: Float[Array, "R n_discrete"] | None,
 ) -> tuple[Float[Array, "n_inner n_states"], Float[Array, "n_inner n_discrete"]]:
     """With which states and discrete variables further runs begin, at the inner edges; only there they count."""
     begins, first = runs.restarts.begins[1:], runs.restarts.first[1:]
     rows = jnp.flatnonzero(begins, size=max(runs.count - 1, 1), fill_value=0)
 
-    def one(t: Array, x: Array) -> tuple[Array, Array]:
-        found = system.modes(clock.at(t).values(x))
+    def one(t: Array, x: Array, d: Array | None) -> tuple[Array, Array]:
+        found = system.modes(clock.at(t).values(x)._replace(d=d))
         assert found.d is not None
         return found.x, found.d
 
-    x, d = jax.vmap(one)(clock.edges[1:-1][rows], first[rows])
+    further = None if discrete is None else discrete[1:]
+    x, d = jax.vmap(one)(clock.edges[1:-1][rows], first[rows], further)
     empty = jnp.zeros((len(begins), d.shape[1]), d.dtype)
     return first.at[rows].set(x), empty.at[rows].set(d)

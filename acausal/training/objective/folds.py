@@ -124,5 +124,7 @@ def judged_on(
     )
     if fold.record:
         starts = first_states(problem.system, data, of_others(x0, data), trained=False)
+        begun = problem.first_states
+        starts = replace(starts, discrete=begun.discrete, told=begun.told)
         judged = replace(judged, first_states=starts, start_prior=None, shooting=None)
     return judged

@@ -14,6 +14,7 @@ from acausal._jax import is_number
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, known_name, listing, shown, warn
 from acausal.training.objective.initial_state import InitialState, first_states
+from acausal.training.objective.start_modes import with_start_modes
 from acausal.training.objective.lay_out import lay_out, sample_time
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sequences import whole_records
@@ -122,7 +123,9 @@ def hold_out(problem: Problem, split: Split, x0: InitialState) -> Problem | None
         return None
     if not split.ends:
         held = {n: d.for_system(problem.system) for n, d in split.held.items()}
-        return over(problem, held, of_others(x0, held))
+        choice = of_others(x0, held)
+        other = over(problem, held, choice)
+        return with_start_modes(other, other.over_other_records(problem.start()), held, choice)
     other = over(problem, split.held, "model")
     records = other.records
     ends = jnp.asarray(list(split.ends.values()))[records.of]

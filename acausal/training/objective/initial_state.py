@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import array, is_number, traced
 from acausal.codegen import Packed, Values
@@ -38,16 +38,32 @@ class FirstStates(eqx.Module):
         kind: of every record.
         given: states that do not depend on parameters; NaN for others.
         kinds: those that occur.
+        discrete: what discrete variables begin with, NaN for those that begin as the model starts; None if all do.
+        told: which of these values the first samples have told.
     """
 
     kind: Int[Array, " R"]
     given: Float[Array, "R n_states"]
     kinds: tuple[int, ...] = eqx.field(static=True)
+    discrete: Float[Array, "R n_discrete"] | None = None
+    told: Bool[Array, "R n_discrete"] | None = None
 
     def from_model(self) -> FirstStates:
         """The same with the model's start in the place of states that are trained."""
         kind = jnp.where(self.kind == FIT, MODEL, self.kind)
-        return FirstStates(kind, self.given, tuple(sorted({*self.kinds, MODEL} - {FIT})))
+        kinds = tuple(sorted({*self.kinds, MODEL} - {FIT}))
+        return FirstStates(kind, self.given, kinds, self.discrete, self.told)
+
+    def discrete_starts(
+        self, system: System, packed: Packed
+    ) -> Float[Array, "R n_discrete"] | None:
+        """What discrete variables begin with; ``packed`` as of a call. None if all begin as the model starts."""
+        if self.discrete is None:
+            return None
+        starts: Any = jax.vmap(
+            lambda own: system.initializer.discrete_starts(Packed(own, packed.modules))
+        )(packed.values)
+        return jnp.where(jnp.isnan(self.discrete), starts, self.discrete)
 
     def __call__(
         self,
@@ -108,8 +124,9 @@ def first_states(
         _start(system, d, of, trained=trained)
         for d, of in zip(data.values(), by_record(data, x0), strict=True)
     ]
-    kinds, states = zip(*starts, strict=True)
-    return FirstStates(array(kinds, int), array(states), tuple(sorted({*kinds})))
+    kinds, states, discrete = zip(*starts, strict=True)
+    modes = None if np.isnan(discrete).all() else array(discrete)
+    return FirstStates(array(kinds, int), array(states), tuple(sorted({*kinds})), modes)
 
 
 def differs(records: Iterable[str], x0: InitialState) -> TypeGuard[Mapping[str, OfRecord]]:
@@ -153,16 +170,20 @@ def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
 
 def _start(
     system: System, data: Data, x0: OfRecord, *, trained: bool
-) -> tuple[int, Float[np.ndarray, " n_states"]]:
-    """How a record starts, and what is known of its state without parameters; NaN elsewhere."""
-    measured = np.array([data[n][0] if n in data.signals else np.nan for n in system.states], float)
+) -> tuple[int, Float[np.ndarray, " n_states"], Float[np.ndarray, " n_discrete"]]:
+    """How a record starts, and what is known of its states and discrete variables without parameters; NaN elsewhere."""
+    first = {n: float(data[n][0]) for n in (*system.states, *system.remembered) if n in data.signals}
+    measured = np.array([first.get(n, np.nan) for n in system.states], float)
+    discrete = np.full(len(system.reduced.discrete), np.nan)
     if isinstance(x0, str) and x0 not in ("data", "auto"):
         if x0 not in KINDS:
             raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, KINDS)}")
         if x0 == "fit" and not trained:
-            return MODEL, measured
-        return KINDS.index(x0), np.full(len(system.states), np.nan)
-    given = system.initializer.by_state({} if isinstance(x0, str) else x0)
+            return MODEL, measured, discrete
+        return KINDS.index(x0), np.full(len(system.states), np.nan), discrete
+    given, modes = system.initializer.given({} if isinstance(x0, str) else x0)
+    modes = {system.discrete[n][0]: v for n, v in first.items() if n in system.discrete} | modes
+    discrete[[*modes]] = [*modes.values()]
     for name, value in given.items():
         if not is_number(value):
             raise DataError(f"x0: '{name}' is {shown(value)}; give a finite number.")
@@ -170,10 +191,10 @@ def _start(
     pairs = list(zip(system.states, state, strict=True))[: system.reduced.n_independent]
     unknown = [n for n, v in pairs if np.isnan(v)]
     if unknown and x0 != "data":
-        return MODEL, state
+        return MODEL, state, discrete
     if unknown:
         raise DataError(
             f"The data lack {listing(unknown)}, with which the record starts: "
             f"leave out x0='data' to have them found, or give x0={{'{unknown[0]}': ...}}."
         )
-    return GIVEN, state
+    return GIVEN, state, discrete

@@ -114,16 +114,19 @@ class Simulator(eqx.Module):
         self, trainable: Trainable, packed: PackedRecords
     ) -> Float[Array, "R n_states"]:
         """The states at which records start."""
-        records = self.records
-        first = self.steps(packed, records.first)
-        all_packed = for_records(packed.common, self.per_record.places, packed.own, records.count)
-        states = self.first_states(self.system, all_packed, first.t, first.inputs.start)
+        first = self.steps(packed, self.records.first)
+        by_record = self._by_record(packed)
+        states = self.first_states(self.system, by_record, first.t, first.inputs.start)
         if self.start_prior is not None:
             states = self.start_prior.moved(states, trainable.starts)
         if self.shooting is None:
             return states
         trained = self.shooting.of_first(trainable.states)
         return jnp.where((self.first_states.kind == FIT)[:, None], trained, states)
+
+    def _by_record(self, packed: PackedRecords) -> Packed:
+        """Parameters with a row for each record."""
+        return for_records(packed.common, self.per_record.places, packed.own, self.records.count)
 
     def part_states(
         self, trainable: Trainable, packed: PackedRecords
@@ -150,9 +153,11 @@ class Simulator(eqx.Module):
         x0 = self.start_states(trainable, packed)
         x0 = x0 if nudge is None else x0 + nudge
         own, steps = packed.own, self.steps(packed)
+        discrete = self.first_states.discrete_starts(self.system, self._by_record(packed))
         if records.count == 1:
             one = self.packed_of(packed, jnp.asarray(0))
-            return self._measured(self.integrate_from(one, x0[0], steps), packed)
+            found = self.integrate_from(one, x0[0], steps, discrete=discrete)
+            return self._measured(found, packed)
         first = jnp.zeros((len(records), x0.shape[1]), x0.dtype).at[records.first].set(x0)
         runs = Runs(
             Restarts(records.begins, first),
@@ -160,7 +165,8 @@ class Simulator(eqx.Module):
             self.per_record.places,
             records.count,
         )
-        return self._measured(self.integrate_from(packed.common, x0[0], steps, runs), packed)
+        found = self.integrate_from(packed.common, x0[0], steps, runs, discrete)
+        return self._measured(found, packed)
 
     def _measured(self, found: Integrated, packed: PackedRecords) -> Integrated:
         """The same with targets as their sensors show them."""
@@ -173,13 +179,16 @@ class Simulator(eqx.Module):
         x0: Float[Array, " n_states"],
         steps: Steps,
         runs: Runs | None = None,
+        discrete: Float[Array, "R n_discrete"] | None = None,
     ) -> Integrated:
-        """States and targets at every step, and the state at the end."""
+        """States and targets at every step, and the state at the end; discrete variables begin as of each run."""
         packed, x0, steps, runs = cast((packed, x0, steps, runs), self.dtype)
         first: Any = steps.t[0]
         start = Values(first, x0, steps.inputs.start[0], packed)
         in_steps = self.system.events is not None or isinstance(self.solver, Adaptive)
-        over: Any = partial(integrate_in_steps, tries=self.tries) if in_steps else integrate
+        over: Any = integrate
+        if in_steps:
+            over = partial(integrate_in_steps, tries=self.tries, discrete=discrete)
         found = over(
             self.system,
             start,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import jax.numpy as jnp
@@ -20,10 +21,9 @@ FOLLOWS = 10.0
 def found_starts(problem: Problem, records: slice = slice(None)) -> str:
     """A clause on the states whose starts were found for some records, and near what; empty where there are none.
 
-    It says, too, which discrete variables begin as the model says, where these decide on what follows.
+    It says, too, with what discrete variables begin that decide on what follows, unless that is measured or given.
     """
-    modes = listing(problem.system.remembered, 3)
-    begins = [f"{modes} as the model starts"] if modes else []
+    begins = list(_modes(problem, records))
     if problem.start_prior is None:
         return "".join(begins)
     found = np.asarray(problem.start_prior.scale)[records] > 0
@@ -33,6 +33,28 @@ def found_starts(problem: Problem, records: slice = slice(None)) -> str:
         states = [problem.system.states[i] for i in np.unique(np.nonzero(rows)[1])]
         clauses += [f"{listing(states)} near the {where} start"] if states else []
     return "; ".join([*clauses, *begins])
+
+
+def _modes(problem: Problem, records: slice) -> Iterator[str]:
+    """Clauses on the discrete variables that begin as the model starts, or as first samples have told."""
+    first, system = problem.first_states, problem.system
+    count = len(np.asarray(first.kind)[records])
+    begins = np.full((count, len(system.reduced.discrete)), np.nan)
+    told = np.zeros(begins.shape, bool)
+    if first.discrete is not None:
+        begins = np.asarray(first.discrete)[records]
+        told = told if first.told is None else np.asarray(first.told)[records]
+    as_model = list[str]()
+    for name in system.remembered:
+        place, _ = system.discrete[name]
+        values = np.unique(begins[told[:, place], place]).tolist()
+        for value in values:
+            which = f" in {np.sum(begins[:, place] == value)} of {count} records" if count > 1 else ""
+            yield f"'{name}' begins with {value:g}{which}, as first samples tell"
+        if not values and np.isnan(begins[:, place]).any():
+            as_model.append(name)
+    if as_model:
+        yield f"{listing(as_model, 3)} as the model starts"
 
 
 def with_sizes(problem: Problem, trainable: Trainable | None = None) -> Problem:
