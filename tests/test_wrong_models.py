@@ -856,9 +856,7 @@ GALLERY: dict[str, Wrong] = {
         ("x0: 'part.u' is not a state",),
     ),
     "an initial value of a discrete variable": (
-        lambda: compiled(part=blocks.Hysteresis(uLow=0, uHigh=1)).initial_state(
-            x0={"part.y": 0.5}
-        ),
+        lambda: compiled(part=blocks.Hysteresis(uLow=0, uHigh=1)).initial_state(x0={"part.y": 0.5}),
         ac.DataError,
         ("x0: 'part.y' is 0.5; give True or False.",),
     ),

@@ -328,11 +328,15 @@ class Initializer(LeavesCaches):
             )
         layout = self.reduced.model.layout
         index = layout.find_variable(name)
-        kind = "real" if index is None else getattr(layout.variable_declaration(index), "kind", "real")
+        kind = (
+            "real" if index is None else getattr(layout.variable_declaration(index), "kind", "real")
+        )
         if not is_number(value):
             raise DataError(f"x0: '{name}' is {shown(value)}; give a real number that is finite.")
         number = None if kind == "real" or traced(value) else float(value)
-        if number is not None and number not in ((0.0, 1.0) if kind == "bool" else (round(number),)):
+        if number is not None and number not in (
+            (0.0, 1.0) if kind == "bool" else (round(number),)
+        ):
             what = "True or False" if kind == "bool" else "a whole number"
             raise DataError(f"x0: '{name}' is {shown(value)}; give {what}.")
 

@@ -41,8 +41,8 @@ from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer, Trajectory, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
-from acausal.training.objective.start_prior import start_prior
 from acausal.training.objective.start_modes import with_start_modes
+from acausal.training.objective.start_prior import start_prior
 from acausal.training.objective.start_sizes import with_sizes
 from acausal.training.objective.streamed import Streamed
 from acausal.training.objective.timing import Timing, timing

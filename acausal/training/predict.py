@@ -23,8 +23,8 @@ from acausal.training.conformal import Conformal
 from acausal.training.objective.held_out import over
 from acausal.training.objective.initial_state import InitialState, by_record, check_records
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.start_prior import StartPrior, start_prior
 from acausal.training.objective.start_modes import with_start_modes
+from acausal.training.objective.start_prior import StartPrior, start_prior
 from acausal.training.objective.start_sizes import found_starts, with_sizes
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.prediction import Prediction, Predictions

@@ -14,10 +14,10 @@ from acausal._jax import is_number
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, known_name, listing, shown, warn
 from acausal.training.objective.initial_state import InitialState, first_states
-from acausal.training.objective.start_modes import with_start_modes
 from acausal.training.objective.lay_out import lay_out, sample_time
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sequences import whole_records
+from acausal.training.objective.start_modes import with_start_modes
 
 Validation: TypeAlias = "float | str | Sequence[str] | RecordsLike | None"
 """What to hold out: the last part of every record, some of the records by name, other records, or nothing."""

@@ -172,7 +172,9 @@ def _start(
     system: System, data: Data, x0: OfRecord, *, trained: bool
 ) -> tuple[int, Float[np.ndarray, " n_states"], Float[np.ndarray, " n_discrete"]]:
     """How a record starts, and what is known of its states and discrete variables without parameters; NaN elsewhere."""
-    first = {n: float(data[n][0]) for n in (*system.states, *system.remembered) if n in data.signals}
+    first = {
+        n: float(data[n][0]) for n in (*system.states, *system.remembered) if n in data.signals
+    }
     measured = np.array([first.get(n, np.nan) for n in system.states], float)
     discrete = np.full(len(system.reduced.discrete), np.nan)
     if isinstance(x0, str) and x0 not in ("data", "auto"):

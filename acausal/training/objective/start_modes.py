@@ -22,7 +22,7 @@ FEWEST, PART = 12, 0.1
 """A record's first samples: at least so many, or this part of them."""
 
 BETTER = 0.5
-"""A combination is taken if it leaves less than this part of the squares of the errors that the model's start leaves."""
+"""A combination is taken if it leaves less than this part of the squares that the model's own start leaves."""
 
 
 def with_start_modes(

@@ -49,7 +49,9 @@ def _modes(problem: Problem, records: slice) -> Iterator[str]:
         place, _ = system.discrete[name]
         values = np.unique(begins[told[:, place], place]).tolist()
         for value in values:
-            which = f" in {np.sum(begins[:, place] == value)} of {count} records" if count > 1 else ""
+            which = (
+                f" in {np.sum(begins[:, place] == value)} of {count} records" if count > 1 else ""
+            )
             yield f"'{name}' begins with {value:g}{which}, as first samples tell"
         if not values and np.isnan(begins[:, place]).any():
             as_model.append(name)
