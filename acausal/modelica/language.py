@@ -33,6 +33,7 @@ from acausal.modeling import (
     change,
     check_size,
     der,
+    dividend,
     edge,
     initial,
     owner_and_name,
@@ -256,18 +257,22 @@ def _ceil(self: Evaluator, x: Any, _: Any) -> Any:
     return self.arithmetic("-", 0, self.floored(self.arithmetic("-", 0, x)))
 
 
+def _quotient(self: Evaluator, x: Any, y: Any) -> Any:
+    """The greatest integer not above ``x / y``."""
+    on = dividend(self.number(x), self.number(y), lambda v: type_of(v) == "Integer")
+    return self.floored(self.arithmetic("/", on, y))
+
+
 def _div(self: Evaluator, x: Any, y: Any) -> Any:
     ratio = self.arithmetic("/", x, y)
     if not isinstance(ratio, sp.Expr):
         return int(ratio)
-    positive = self.relation(">=", ratio, 0)
-    return self.chosen(positive, self.floored(ratio), _ceil(self, ratio, None))
+    below = self.arithmetic("-", 0, _quotient(self, self.arithmetic("-", 0, x), y))
+    return self.chosen(self.relation(">=", ratio, 0), _quotient(self, x, y), below)
 
 
 def _mod(self: Evaluator, x: Any, y: Any) -> Any:
-    return self.arithmetic(
-        "-", x, self.arithmetic("*", self.floored(self.arithmetic("/", x, y)), y)
-    )
+    return self.arithmetic("-", x, self.arithmetic("*", _quotient(self, x, y), y))
 
 
 def _rem(self: Evaluator, x: Any, y: Any) -> Any:

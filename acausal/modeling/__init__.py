@@ -83,6 +83,7 @@ from acausal.modeling.functions import (
     atan2 as atan2,
     cos as cos,
     cosh as cosh,
+    dividend as dividend,
     exp as exp,
     floor as floor,
     log as log,

@@ -44,8 +44,9 @@ class Previous(Compared):
         symbol.reference = reference
         return symbol
 
-    def _is_whole(self) -> bool:
-        return self.reference._is_whole()
+    def has_whole_values(self) -> bool:
+        """Whether those of the variable are."""
+        return self.reference.has_whole_values()
 
     def _sympystr(self, printer: Any) -> str:
         return f"pre({self.reference.path})"
@@ -213,7 +214,9 @@ def change(variable: Any) -> Any:
     if is_array(variable):
         return elementwise(change, variable)
     before = pre(variable)
-    if variable._is_whole():  # so that it can be watched, too: a signal may change between events
+    if (
+        variable.has_whole_values()
+    ):  # so that it can be watched, too: a signal may change between events
         return sp.Ge(sp.Abs(variable - before), HALF)
     return sp.Ne(variable, before)
 

@@ -9,7 +9,7 @@ from typing import Any
 import sympy as sp
 
 from acausal.modeling.arrays import elementwise, is_array
-from acausal.modeling.symbols import ModuleCall, RealFunction, number_or_expression, time
+from acausal.modeling.symbols import Compared, ModuleCall, RealFunction, number_or_expression, time
 
 
 def _of_expressions(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -174,3 +174,30 @@ class Floored(RealFunction):
 
     def _sympystr(self, printer: Any) -> str:
         return printer._print(floor(self.args[0]))
+
+
+def _is_counted(x: Any) -> bool:
+    return isinstance(x, Compared) and x.has_whole_values()
+
+
+def has_whole_values(x: Any, is_whole: Callable[[Any], bool] = _is_counted) -> bool:
+    """Whether an expression is a whole number by its form, of variables that are, as a function says."""
+    if isinstance(x, int | float) or (isinstance(x, sp.Expr) and x.is_number):
+        return float(x).is_integer()
+    if isinstance(x, sp.floor | sp.ceiling | sp.sign | Floored):
+        return True
+    parts = x.args
+    if isinstance(x, sp.Piecewise):
+        parts = tuple(value for value, _ in x.args)
+    elif isinstance(x, sp.Pow):
+        return x.exp.is_Integer and x.exp > 0 and has_whole_values(x.base, is_whole)
+    elif not isinstance(x, sp.Add | sp.Mul | sp.Abs | sp.Max | sp.Min):
+        return is_whole(x)
+    return all(has_whole_values(part, is_whole) for part in parts)
+
+
+def dividend(x: Any, y: Any, is_whole: Callable[[Any], bool] = _is_counted) -> Any:
+    """What is divided by a number for ``floor(x / y)``: of whole numbers x a half on, so that rounding does no harm."""
+    known = isinstance(x, int | float) and isinstance(y, int | float)
+    whole = not known and has_whole_values(x, is_whole) and has_whole_values(y, is_whole)
+    return x + sp.sign(y) / 2 if whole else x

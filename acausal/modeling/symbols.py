@@ -88,7 +88,7 @@ class Compared(sp.Symbol):
     Only what is written outside of sympy, NumPy and this package is read so; they need the identity.
     """
 
-    def _is_whole(self) -> bool:
+    def has_whole_values(self) -> bool:
         """Whether its values are whole numbers or truth values, of which one equals another or not."""
         return False
 
@@ -104,9 +104,11 @@ class Compared(sp.Symbol):
 
     def _equals(self, other: Any) -> Any:
         is_whole = (
-            other._is_whole() if isinstance(other, Compared) else not isinstance(other, sp.Expr)
+            other.has_whole_values()
+            if isinstance(other, Compared)
+            else not isinstance(other, sp.Expr)
         )
-        if not (self._is_whole() and is_whole):
+        if not (self.has_whole_values() and is_whole):
             raise DeclarationError(
                 f"{self} == {other}: an equation is ac.Eq(left, right), and in a condition a real number, which "
                 "has a value at instants only, is compared by <, <=, > or >=. Whole numbers are variables of "
@@ -183,7 +185,8 @@ class Reference(Compared):
         owner = {"owner": self.owner, "declaration": self.declaration}
         return Reference._again, (self.path, self.serial), owner
 
-    def _is_whole(self) -> bool:
+    def has_whole_values(self) -> bool:
+        """Whether it is declared so."""
         return getattr(self.declaration, "kind", "real") != "real"
 
     def _sympystr(self, printer: Any) -> str:

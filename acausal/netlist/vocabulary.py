@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.modeling import Atan2, der, floor
+from acausal.modeling import Atan2, der, dividend, floor
 
 MAX_VALUES = 20
 """The most values that a minimum or maximum may have."""
@@ -48,8 +48,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "abs": sp.Abs, "sign": sp.sign, "der": der,
     "min": lambda *x: _extreme(sp.Min, x), "max": lambda *x: _extreme(sp.Max, x),
     "floor": floor, "integer": floor, "ceil": lambda x: -floor(-x),
-    "div": lambda x, y: sp.sign(x / y) * floor(sp.Abs(x / y)),
-    "mod": lambda x, y: x - floor(x / y) * y,
+    "div": lambda x, y: sp.sign(x / y) * _quotient(sp.Abs(x), sp.Abs(y)),
+    "mod": lambda x, y: x - _quotient(x, y) * y,
 }  # fmt: skip
 
 CONVERSIONS: dict[str, tuple[float, float]] = {
@@ -70,6 +70,11 @@ CONVERSIONS: dict[str, tuple[float, float]] = {
 """Of `Modelica.Units.Conversions`: the SI value is ``factor * x + offset``; ``from_deg(x)``, ``to_deg(x)``."""
 
 PREFIXES = re.compile(r"(Modelica\.)?(Math|(Units\.|SIunits\.)?Conversions|Cv)\.")
+
+
+def _quotient(x: Any, y: Any) -> Any:
+    """The greatest integer not above ``x / y``."""
+    return floor(dividend(x, y) / y)
 
 
 def _extreme(kind: Any, values: tuple[Any, ...]) -> Any:

@@ -318,3 +318,34 @@ def test_outputs_of_the_librarys_interfaces_may_change_at_events(tmp_path: Path)
     assert {name: float(end[name][-1]) for name in wanted} == pytest.approx(wanted)
     at = ac.simulate(ac.compile(ac.load(path, "Sampled.All")), 0.7)
     assert float(at["steps.y"][-1]) == pytest.approx(3.5)
+
+
+def test_quotients_of_integers_are_exact(tmp_path: Path) -> None:
+    """Rounded quotients of the expanded expressions were a whole off wherever one divides the other."""
+    file = tmp_path / "Quotients.mo"
+    file.write_text("""
+        model Quotients
+          parameter Integer n = 3;
+          Integer k(start = 0, fixed = true), m, d, r, away, held(start = 0);
+        equation
+          when sample(0.5, 0.5) then
+            k = pre(k) + 1;
+            held = mod(2*k - 5, 7);
+          end when;
+          m = mod(5 - 2*k, n);
+          d = div(5 - 2*k, 3);
+          r = rem(5 - 2*k, 3);
+          away = mod(k - 7, -n);
+        end Quotients;
+    """)
+    run = ac.simulate(ac.compile(ac.load(file)), 15.0, saveat=np.arange(0.25, 15, 0.5))
+    k = np.arange(30)
+    expected = {
+        "m": np.mod(5 - 2 * k, 3),
+        "d": np.trunc((5 - 2 * k) / 3),
+        "r": np.fmod(5 - 2 * k, 3),
+        "away": np.mod(k - 7, -3),
+        "held": np.where(k > 0, np.mod(2 * k - 5, 7), 0),
+    }
+    for name, values in expected.items():
+        assert run[name].tolist() == values.tolist(), name

@@ -102,9 +102,9 @@ def confidence(
     between = _between(change, effects, rows, noise.samples)
     sigma = np.sqrt(np.diag(between))
     each = np.sqrt([np.diag(c) for c in found.own[: problem.records.count]]) * change.of_record
+    of_records, variance = problem.per_record.names, np.diag(covariance)
     with_laws = _with_laws(change, effects)
-    starts = _unknown_starts(change, effects, rows)
-    moves = np.stack([np.zeros(len(change.heights)), *(s.move for s in starts.values())])
+    beside = _beside_laws(change, effects, rows)
     places = split(change.bumped, np.arange(len(onward)))[0]
     known = {
         n: np.sqrt(np.diag(_between(change, effects, rows, noise.samples, np.r_[own, along])))
@@ -112,7 +112,7 @@ def confidence(
     }
     taken = _taken(with_laws, known, np.where(sigma > TAKEN * change.of_parameters, sigma, 0.0))
     bands = {
-        name: _band(change, name, onward[own], covariance[np.ix_(own, own)], moves[:, own])
+        name: _band(change, name, onward[own], covariance[np.ix_(own, own)], beside.moves[:, own])
         for name, own in places.items()
     }
     return Confidence(
@@ -120,14 +120,19 @@ def confidence(
         dict(zip(with_laws, sigma.tolist(), strict=True)),
         between / np.maximum(np.outer(sigma, sigma), 1e-300),
         with_laws,
-        {n: each[:, i] for i, n in enumerate(problem.per_record.names)},
+        {
+            n: np.hypot(
+                each[:, i], beside.unknown.get(n, 0.0) * change.of_record[i] / np.sqrt(len(each))
+            )
+            for i, n in enumerate(of_records)
+        },
         dict(zip(problem.targets, noise.size.tolist(), strict=True)),
         dict(zip(problem.targets, noise.alike.tolist(), strict=True)),
         _unexplained(problem, left),
         step_move,
         _about(change, sigma, taken),
-        taken,
-        _taken_by(starts, places, np.diag(covariance)),
+        taken | _taken_by(beside, of_records, TAKEN, places, variance),
+        _taken_by(beside, problem.system.states, OPEN, places, variance),
         _as_prior(change, found.root / change.deviations, alike),
     )
 
@@ -304,59 +309,75 @@ def _taken(
     return {name: laws for name, laws in found.items() if laws}
 
 
-class _Start(NamedTuple):
-    """What is not known of a start that is not measured.
+class _Beside(NamedTuple):
+    """What is not known, beside laws that may change, of numbers that all records have in common.
 
     Attributes:
-        unknown: the deviation that is left of it, as a part of the prior one.
-        move: how the bumps of all laws change with that deviation.
+        unknown: by name of a parameter, a parameter of records, or a state that starts somewhere, the deviation that is
+            left of it, as a part of the prior one.
+        bumps: by name, how the bumps of all laws change with that deviation.
+        moves: how they change with all of the numbers, along independent directions.
     """
 
-    unknown: float
-    move: Float[np.ndarray, " n_bumps"]
+    unknown: dict[str, float]
+    bumps: dict[str, Float[np.ndarray, " n_bumps"]]
+    moves: Float[np.ndarray, "n n_bumps"]
 
 
-def _unknown_starts(
+def _beside_laws(
     change: Changes,
     effects: Float[np.ndarray, "rows n"],
     earlier: Float[np.ndarray, "rows_before n"],
-) -> dict[str, _Start]:
-    """By state whose start is not measured, what is left unknown of it as laws can take its part.
+) -> _Beside:
+    """What is left unknown of parameters, and of what records or their starts have in common, as laws take its part.
 
     They can by bumps and along their own weights: a law that moves along its argument, as the voltage of a cell with
     the charge that it began with, changes by its slope, which bumps are too wide for. The starts of all records move
-    together.
+    together, and so does a parameter of theirs.
     """
     n = len(change.heights)
-    starts = _common_starts(change, effects)
-    if not (n and starts):
-        return {}
+    own = _common_numbers(change, effects)
+    names = (*change.problem.modifiers.names, *own)
+    if not (n and names):
+        return _Beside({}, {}, np.zeros((0, n)))
     places = [np.arange(n), *(np.r_[own] for own in change.places_along.values())]
     laws = np.concatenate(places)
     able = np.concatenate([effects[:, laws], earlier[:, laws], np.eye(len(laws)) / FREE])
-    columns = np.stack([*starts.values()], axis=1)
-    columns = np.concatenate([columns, np.zeros((len(able) - len(columns), len(starts)))])
+    columns = np.zeros((len(able), len(names)))
+    known = len(change.of_parameters)
+    columns[: len(effects), :known] = effects[:, change.parameters]
+    columns[len(effects) : len(effects) + len(earlier), :known] = earlier[:, change.parameters]
+    columns[: len(effects), known:] = np.stack([*own.values()], axis=1) if own else 0.0
     left = columns - able @ np.linalg.lstsq(able, columns, rcond=None)[0]
-    unknown = 1 / np.hypot(1, np.linalg.norm(left, axis=0))
-    moves = np.linalg.lstsq(able[:, :n], columns, rcond=None)[0] * unknown
-    rows = zip(starts, unknown.tolist(), moves.T, strict=True)
-    return {state: _Start(part, change.heights * move) for state, part, move in rows}
+    covariance = np.linalg.inv(left.T @ left + np.eye(len(names)))
+    by_number = change.heights * np.linalg.lstsq(able[:, :n], columns, rcond=None)[0].T
+    size, directions = np.linalg.eigh(covariance)
+    unknown = np.sqrt(np.diag(covariance))
+    bumps = (covariance / unknown[:, None]) @ by_number
+    moves = (directions * np.sqrt(size)).T @ by_number
+    return _Beside(
+        dict(zip(names, unknown.tolist(), strict=True)), dict(zip(names, bumps, strict=True)), moves
+    )
 
 
-def _common_starts(
+def _common_numbers(
     change: Changes, effects: Float[np.ndarray, "rows n"]
 ) -> dict[str, Float[np.ndarray, " rows"]]:
-    """By state that is not measured, what one standard deviation of a start changes that all records have in common."""
+    """What one standard deviation changes that all records have in common of what each has for itself.
+
+    By parameter of records, and by state whose start is not measured.
+    """
     problem, states = change.problem, change.problem.system.states
-    columns = iter(effects[:, change.own].T[len(problem.per_record.names) :])
-    found = dict[str, Float[np.ndarray, " rows"]]()
+    columns = iter(effects[:, change.own].T)
+    tied = zip(problem.per_record.names, columns, strict=False)
+    found = {name: column / np.sqrt(problem.records.count) for name, column in tied}
     if change.trainable.starts is not None and problem.start_prior is not None:
         scale = np.asarray(problem.start_prior.scale)
         with np.errstate(divide="ignore"):
             each = np.where(scale > 0, 1 / scale, 0.0)  # a start that is known does not move
         common = 1 / np.maximum(np.sqrt(np.sum(each**2, axis=0)), 1e-300)
         of = np.repeat(np.asarray(problem.records.of), len(problem.targets))
-        found = {
+        found |= {
             state: column * common[i] * each[of, i]
             for i, (state, column) in enumerate(zip(states, columns, strict=False))
             if np.isnan(np.asarray(problem.first_states.given)[:, i]).any()
@@ -368,21 +389,23 @@ def _common_starts(
 
 
 def _taken_by(
-    starts: Mapping[str, _Start],
+    beside: _Beside,
+    names: Collection[str],
+    least: float,
     places: Mapping[str, Int[np.ndarray, " n"]],
     variance: Float[np.ndarray, " n_common"],
 ) -> dict[str, tuple[str, ...]]:
-    """By state whose start is hardly known, the laws that change with it by much of what is not known of them."""
+    """By name of what is hardly known, the laws that change with it by much of what is not known of them."""
     found = {
-        state: tuple(
-            name
-            for name, own in places.items()
-            if np.linalg.norm(start.move[own]) > SHARE * np.sqrt(np.sum(variance[own]))
+        name: tuple(
+            law
+            for law, own in places.items()
+            if np.linalg.norm(beside.bumps[name][own]) > SHARE * np.sqrt(np.sum(variance[own]))
         )
-        for state, start in starts.items()
-        if start.unknown > OPEN
+        for name in names
+        if beside.unknown.get(name, 0.0) > least
     }
-    return {state: laws for state, laws in found.items() if laws}
+    return {name: laws for name, laws in found.items() if laws}
 
 
 def _about(
@@ -445,7 +468,7 @@ def _band(
     covariance: Float[np.ndarray, "n_bumps n_bumps"],
     moves: Float[np.ndarray, "n n_bumps"],
 ) -> Band:
-    """A law with its deviation: what the covariance says, or its ``moves`` with starts where these are more."""
+    """A law with its deviation: what the covariance says, or its ``moves`` with other numbers where these are more."""
     network, bumped = change.params[name], change.bumped[name]
     x = np.asarray(bumped.points(BAND_POINTS))
     others = change.seen[name][:, 1:]
