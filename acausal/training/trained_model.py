@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
@@ -240,7 +241,7 @@ def out_of_range(record: RecordFit, model: TrainedModel) -> str:
     """A sentence on what of a predicted record is outside of what a model was trained on; empty where nothing is.
 
     Inputs, targets and the arguments of networks count, at samples where a target is measured, from `OUTSIDE` of the
-    range in training on.
+    range in training on; so do two arguments of a network that are not related as they were.
     """
     seen = [_measured(r) for r in model.records.values()]
     found: list[str] = []
@@ -256,9 +257,32 @@ def out_of_range(record: RecordFit, model: TrainedModel) -> str:
                 f"{what} is from {least:.4g} to {most:.4g} {unit}".rstrip()
                 + f" (in training {low:.4g} to {high:.4g})"
             )
+    found = found or list(_unlike(record, model))
     if not found:
         return ""
     return f"'{record.name}' is outside of the training's range: {', '.join(found)}. There the model extrapolates."
+
+
+def _unlike(record: RecordFit, model: TrainedModel) -> Iterator[str]:
+    """Which arguments of networks are together what they were not in training: by their sums and differences."""
+    for name, seen in model.arguments.items():
+        now, spread = record.arguments.get(name, seen), seen.std(axis=0)
+        if not (np.isfinite(seen).all() and np.isfinite(now).all()):
+            continue
+        then, now = (
+            (a - seen.mean(axis=0)) / np.where(spread > 0, spread, 1.0) for a in (seen, now)
+        )
+        margin = OUTSIDE * np.ptp(then, axis=0)
+        for i, j in combinations(range(seen.shape[1]), 2):
+            for sign in (1, -1):
+                known, values = (a[:, i] + sign * a[:, j] for a in (then, now))
+                beyond = max(known.min() - values.min(), values.max() - known.max())
+                if beyond > margin[i] + margin[j]:
+                    yield (
+                        f"arguments {i + 1} and {j + 1} of '{name}' have values together that they never had in "
+                        "training"
+                    )
+                    break
 
 
 def _measured(record: RecordFit) -> dict[str, Float[np.ndarray, " m"]]:

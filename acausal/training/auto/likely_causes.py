@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from acausal.errors import listing, percent
 from acausal.training.objective.input_gains import (
@@ -22,6 +22,7 @@ from acausal.training.objective.input_gains import (
     in_words,
     to_check,
     with_gain,
+    with_held,
     with_offset,
 )
 from acausal.training.objective.start_prior import StartPrior
@@ -41,6 +42,15 @@ MOST = 2
 
 MOST_LATE = 0.25
 """Nothing comes later than by this part of a record."""
+
+MOST_HELD = 2.0
+"""An input that is held where it should be is so once, and not more often."""
+
+STRAIGHT = 1e-6
+"""A polygon bends where its rise from sample to sample changes by more than this part of its range,"""
+
+FEWEST_BENDS, MOST_BENDS = 3, 0.25
+"""at least so often, and at most at this part of the samples, if it comes from few samples or has steps."""
 
 MOST_STARTS = 50
 """Of more states no starts are suspected, as each costs a simulation."""
@@ -99,6 +109,18 @@ class Gain(Cause):
         return to_check(1 + size)
 
 
+class Held(Cause):
+    """An input that was held from sample to sample, and is read along straight lines."""
+
+    def sentence(self, size: float) -> str:
+        """Which one."""
+        return f"{self.names[0]} was held from sample to sample"
+
+    def remedy(self, size: float) -> str:
+        """How to read it so."""
+        return f"read it so: interpolation={{'{self.names[0]}': 'previous'}}, of the data"
+
+
 class OtherStart(Cause):
     """A state that is not measured, and did not start where it was taken to."""
 
@@ -139,7 +161,14 @@ def likely_causes(fit: TrainedModel) -> str | None:
         return None  # a network that is never called takes nothing, and has no place to bump
     change = changes(problem, fit.trained, fit.arguments)
     left, jacobian = residuals_and_jacobian(problem, change)
-    causes = [*_parameters(fit), *_inputs(fit), *_offsets(fit), *_delays(fit), *_starts(fit)]
+    causes = [
+        *_parameters(fit),
+        *_inputs(fit),
+        *_held(fit),
+        *_offsets(fit),
+        *_delays(fit),
+        *_starts(fit),
+    ]
     effects = np.stack([left, *(cause.effect for cause in causes)], axis=-1)
     counts = np.asarray(problem.records.weight) > 0
     size = np.sqrt(np.sum(left**2, axis=0) / np.maximum(np.sum(counts, axis=0), 1))
@@ -160,6 +189,8 @@ def likely_causes(fit: TrainedModel) -> str | None:
     }
     if not likely:
         return None
+    if any(isinstance(cause, Held) for cause in likely):  # which comes late by half a sample
+        likely = {cause: size for cause, size in likely.items() if not isinstance(cause, Late)}
     kinds = [type(cause) for cause in likely]
     looks = " or ".join(
         f"{cause.sentence(size)} ({cause.remedy(size)})"
@@ -201,6 +232,41 @@ def _inputs(fit: TrainedModel) -> Iterator[Cause]:
 
     effects = _effects(predicted, len(columns))
     yield from (Gain((n,), e, np.inf) for n, e in zip(columns, effects, strict=True))
+
+
+def _held(fit: TrainedModel) -> Iterator[Cause]:
+    """The inputs that are straight between few samples, or constant but for steps."""
+    problem, trainable = fit.problem, fit.trained
+    params, columns = problem.assemble(trainable), gains(problem)
+    samples = problem.records.steps.inputs
+    if samples.coefficients is not None:
+        return
+    start, end = np.asarray(samples.start), np.asarray(samples.end)
+    begins = np.asarray(problem.records.begins)
+    before = None
+    for name, own in columns.items():
+        i = list(problem.system.inputs).index(name) if name in problem.system.inputs else None
+        if i is None or own.sum() > 1:
+            continue
+        held = _from_knots(start[:, i], end[:, i], begins)
+        if held is None:
+            continue
+        before = problem.predict(trainable, params) if before is None else before
+        new = with_held(problem, i, jnp.asarray(held))
+        effect = new.predict(trainable, params) - before
+        yield Held((name,), np.asarray(effect), MOST_HELD)
+
+
+def _from_knots(
+    start: Float[np.ndarray, " n"], end: Float[np.ndarray, " n"], begins: Bool[np.ndarray, " n"]
+) -> Float[np.ndarray, " n"] | None:
+    """The values of an input that is held from each bend of a polygon to the next; None for one that bends often."""
+    slope = end - start
+    bends = begins | (np.abs(np.diff(slope, prepend=np.nan)) > STRAIGHT * np.ptp(start))
+    bends[0] = True
+    if not slope.any() or not FEWEST_BENDS <= np.sum(bends & ~begins) <= MOST_BENDS * len(start):
+        return None
+    return start[np.maximum.accumulate(np.where(bends, np.arange(len(start)), 0))]
 
 
 def _offsets(fit: TrainedModel) -> Iterator[Cause]:

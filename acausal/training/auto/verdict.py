@@ -34,6 +34,9 @@ NEAR, STILL = 0.01, 0.9
 """An argument of a law hardly changes where more than the second part of its values are within the first part of its
 range about their median."""
 
+TOGETHER = 0.99
+"""Arguments of a law whose correlation is above this tell nothing apart."""
+
 FAR_START = 2.0
 """A start that is found further off than so many standard deviations of its prior contradicts it."""
 
@@ -286,6 +289,13 @@ def _ranges(fit: TrainedModel) -> Iterator[str]:
         more = (f", argument {i} {between}" for i, between in enumerate(others, 2))
         yield f"{name} was seen {first}{''.join(more)} only."
         still = np.mean(np.abs(seen - usual) <= NEAR * np.ptp(ends, axis=0), axis=0) > STILL
+        with np.errstate(all="ignore"):
+            alike = np.abs(np.atleast_2d(np.corrcoef(seen.T)))
+        for i, j in np.argwhere(np.triu(alike, 1) > TOGETHER):
+            yield (
+                f"Arguments {i + 1} and {j + 1} of {name} went together: what {name} does where they do not is hardly "
+                "known."
+            )
         for i in np.flatnonzero(still) if others else ():
             yield (
                 f"Argument {i + 1} of {name} was {usual[i]:.3g} nearly always: "

@@ -43,6 +43,14 @@ def with_offset(simulator: S, offset: Float[Array, " n_inputs"]) -> S:
     return eqx.tree_at(lambda s: s.records.steps.inputs, simulator, moved)
 
 
+def with_held(simulator: S, place: int, values: Float[Array, " n"]) -> S:
+    """The same, with one input held at these values from sample to sample."""
+    samples = simulator.records.steps.inputs
+    start, end = (a.at[:, place].set(values) for a in (samples.start, samples.end))
+    held = replace(samples, start=start, end=end)
+    return eqx.tree_at(lambda s: s.records.steps.inputs, simulator, held)
+
+
 def in_words(name: str, gain: float) -> str:
     """What an input would be that is so many times what its record says."""
     if -2 < gain < -0.5:
