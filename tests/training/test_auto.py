@@ -32,6 +32,7 @@ from acausal.training.auto.verdict import _doubt, _ranges
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
+from acausal.training.trained_model import out_of_range
 from acausal.training.uncertainty.confidence import Band
 from benchmarks.by_default import NOISE, PROBLEMS, Known, by_default, fresh_error, law_error, record
 from tests.support.slow import some_slow
@@ -537,3 +538,53 @@ def test_steps_that_are_too_long_and_a_record_that_is_another_are_told() -> None
     fit = ac.fit(system, records["a"], ["w"], solver="heun", **options)
     assert "Its steps err by" in str(fit.verdict)
     assert "or solver='rk4'" in str(fit.verdict)
+
+
+class Warm(ac.Component):
+    """A body that is heated."""
+
+    C, G = ac.Parameter(80.0, min=0), ac.Parameter(1.0, min=0)
+    q, T = ac.Input(), ac.Variable(start=0.0)
+
+    def equations(self) -> Any:
+        yield ac.Eq(self.C * ac.der(self.T), self.q - self.G * self.T)
+
+
+@pytest.mark.cases(fast=1)
+@pytest.mark.parametrize("logged", ["when it changes", "at every sample"])
+def test_an_input_that_was_held_is_named(logged: str) -> None:
+    """The same heat flow, once with times of its own, and once at the samples of the temperature."""
+    rng, t = np.random.default_rng(19), np.arange(0, 600, 10.0)
+    changes = np.r_[0, np.sort(rng.choice(np.arange(3, 57), 11, replace=False)) * 10.0]
+    levels = rng.uniform(0, 50, 12)
+    held = levels[np.searchsorted(changes, t, side="right") - 1]
+    T = np.zeros_like(t)
+    for k in range(len(t) - 1):
+        rest = held[k] / 0.7
+        T[k + 1] = rest + (T[k] - rest) * np.exp(-0.7 / 40 * 10)
+    own = np.r_[changes, t[-1]], np.r_[levels, levels[-1]]
+    q = own if logged == "when it changes" else (t, held)
+    data = ac.Data(signals={"q": q, "T": (t, T + 0.1 * rng.standard_normal(len(t)))})
+    with pytest.warns(UserWarning, match="does not explain the record"):
+        fit = ac.fit(ac.compile(Warm()), data, ["T"], modifiers=["C", "G"], progress=False)
+    assert "q was held from sample to sample (read it so: interpolation={'q': 'previous'}" in repr(
+        fit
+    )
+    assert "late" not in repr(fit)
+
+
+def test_arguments_that_went_together_are_named_and_predictions_where_they_do_not() -> None:
+    x = np.linspace(-1, 1, 21)
+
+    def called(*arguments: Any) -> Any:
+        record = SimpleNamespace(
+            name="new", measured=np.zeros((21, 0)), inputs={}, targets=(),
+            arguments={"net": np.stack(arguments, axis=1)},
+        )  # fmt: skip
+        return cast(Any, record)
+
+    along, apart = called(x, x + 0.001 * x**2), called(x, -x)
+    fit: Any = SimpleNamespace(arguments=along.arguments, records={"old": along})
+    assert "Arguments 1 and 2 of net went together" in " ".join(_ranges(fit))
+    assert out_of_range(along, fit) == ""
+    assert "arguments 1 and 2 of 'net' have values together" in out_of_range(apart, fit)

@@ -11,6 +11,8 @@ from typing import Any
 import jax
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
 from scipy.signal import lfilter
 
 import acausal as ac
@@ -512,3 +514,38 @@ def test_parameters_and_a_law_that_have_a_factor_in_common_are_not_called_known(
     assert "The data can hardly tell 'G' from the law 'law'" in repr(fit)
     assert fit.verdict is not None
     assert not fit.verdict.good
+    band, own = sure.laws["law"], float(fit.params["C"])
+    assert own != pytest.approx(3, rel=0.2)  # one factor of many
+    miss = np.abs(band.law - 6 * band.x**2)
+    seen = (band.x > 0.3) & (band.x < 1.5)
+    assert (miss < 4 * band.sigma)[seen].all()
+
+
+class Ambient(ac.Component):
+    """A body whose losses are a law of how much warmer it is than a surrounding that nobody measures."""
+
+    Q, Ta = ac.Input(), ac.Parameter(10.0)
+    T = ac.Variable(start=15.0)
+    law = ac.Module(ac.networks.Law())
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(10 * ac.der(self.T), self.Q - self.law(self.T - self.Ta))
+
+
+@pytest.mark.slow
+def test_what_records_have_in_common_beside_a_law_is_as_unknown_as_it_was():
+    """The law may be shifted, and the surroundings of all records with it."""
+    t, rng = np.linspace(0, 60, 241), np.random.default_rng(14)
+    records, true = {}, {"a": 13.0, "b": 16.0, "c": 14.0}
+    for k, (name, Ta) in enumerate(true.items()):
+        Q = 9 + 6 * np.sin(0.5 * t + k) + 3 * np.sin(1.3 * t)
+        flow = CubicSpline(t, Q)
+        rates = lambda t, T, flow=flow, Ta=Ta: (flow(t) - 0.6 * (T - Ta) ** 1.3) / 10  # noqa: E731
+        run = solve_ivp(rates, (0, 60), [Ta + 8], t_eval=t, rtol=1e-9, atol=1e-9)
+        records[name] = ac.Data(t, {"Q": Q, "T": run.y[0] + 0.05 * rng.standard_normal(len(t))})
+    fit = ac.fit(ac.compile(Ambient()), records, ["T"], per_record={"Ta": 3.0}, progress=False)
+    sure = fit.confidence()
+    assert sure.taken == {"Ta": ("law",)}
+    assert "The data can hardly tell 'Ta' from the law 'law'" in repr(fit)
+    found = [record.parameters["Ta"] for record in fit.records.values()]
+    assert (np.abs(np.subtract(found, [*true.values()])) < 3 * sure.per_record["Ta"]).all()

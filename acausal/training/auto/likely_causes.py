@@ -49,7 +49,7 @@ MOST_HELD = 2.0
 STRAIGHT = 1e-6
 """A polygon bends where its rise from sample to sample changes by more than this part of its range,"""
 
-FEWEST_BENDS, MOST_BENDS = 3, 0.25
+FEWEST_BENDS, MOST_BENDS = 3, 0.5
 """at least so often, and at most at this part of the samples, if it comes from few samples or has steps."""
 
 MOST_STARTS = 50

@@ -19,6 +19,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Band
+from acausal.training.uncertainty.residuals import unexplained
 
 DOWN_TO = 1.15
 """A loss of up to so many times that of the noise is down to the noise,"""
@@ -167,7 +168,10 @@ def _odd_records(fit: TrainedModel) -> Iterator[str]:
     if len(left) < 2:
         return
     *others, worst = sorted(left, key=left.__getitem__)
-    if left[worst] > ODD * left[others[-1]] > 0:
+    record = fit.records[worst]
+    columns = zip(record.errors.T, record.sigma.tolist(), strict=True)
+    beside_noise = [unexplained([c], size) for c, size in columns if np.isfinite(c).any()]
+    if left[worst] > ODD * left[others[-1]] > 0 and max(beside_noise) > left[worst] / 2:
         yield (
             f"Of '{worst}' it leaves {percent(left[worst])}, of each other record {percent(left[others[-1]])} at most: "
             "look at that one first (a sign, a unit, another load)."
