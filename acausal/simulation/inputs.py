@@ -353,13 +353,23 @@ def breaks(
     in steps that an estimate of their error chooses.
     """
     signals = [f for f in functions if isinstance(f, Signal) and not traced(f.ts)]
-    jumping = _times([f for f in signals if f.jumps], start, end)
+    jumping = _times([f for f in signals if f.jumps], start, end, _jumps)
     lines = [f for f in signals if f.interpolation == "linear"]
     bent = _times(lines, start, end, _corners)
     if len(bent) > KINKS:
         bent = _times(lines, start, end, partial(_corners, rough=True))
     ts = np.union1d(jumping, bent)
     return ts, np.isin(ts, jumping)
+
+
+def _jumps(signal: Signal) -> Float[np.ndarray, " n"]:
+    """The times at which a signal that is held changes; all samples where its values are not known."""
+    ts = np.asarray(signal.ts)
+    if signal.derivative or traced(signal.values):
+        return ts
+    changes = np.diff(np.asarray(signal.values), prepend=np.nan) != 0
+    changes[-1] |= signal.after_end != "hold"
+    return ts[changes]
 
 
 def _corners(signal: Signal, *, rough: bool = False) -> Float[np.ndarray, " n"]:

@@ -442,7 +442,7 @@ def test_fit_differentiates_the_record_and_says_so_once():
 
 
 def test_adaptive_steps_end_at_corners_and_jumps_of_inputs_only():
-    held = ac.Signal([0.0, 1.0, 2.0], [1.0, 3.0, 3.0], "previous")
+    held = ac.Signal([0.0, 1.0, 1.5, 2.0], [1.0, 3.0, 3.0, 3.0], "previous")
     ramp = ac.Signal([0.0, 0.5, 1.5, 2.5, 4.0], [0.0, 1.0, 3.0, 5.0, 0.0])
     ts, jumps = breaks((held, ramp, lambda t: t), 0.0, 4.0)
     np.testing.assert_allclose(ts, [1.0, 2.0, 2.5])
