@@ -317,3 +317,40 @@ def test_signals_of_an_expandable_connector_are_connected_by_their_names(tmp_pat
     assert float(again["r.f.y"][-1]) == pytest.approx(
         float(ac.simulate(system, 2.0)["r.f.y"][-1]), rel=1e-9
     )
+
+
+@pytest.mark.parametrize(
+    ("sizes", "first", "second", "written"),
+    [
+        ("2", "b[2] = 20; b[1] = 10 + h;", "", ["b = {10 + h, 20};"]),
+        (
+            "2, 2",
+            "b[2,1] = 21; b[1,1] = h; b[1,2] = 12; b[2,2] = 22;",
+            "",
+            ["b = {{h, 12}, {21, 22}};"],
+        ),
+        (
+            "3",
+            "b[3] = 30; b[1] = h;",
+            "b[2] = 20 + h;",
+            ["b[3] = 30;", "b[1] = h;", "b[2] = 20 + h;"],
+        ),
+    ],
+)
+def test_elements_that_a_when_assigns_keep_their_places(
+    sizes: str, first: str, second: str, written: list[str], tmp_path: Path
+) -> None:
+    other = f"when h < 0.5 then {second} end when;" if second else ""
+    (tmp_path / "places.mo").write_text(
+        f"""model Places Real h(start = 2, fixed = true); discrete Real b[{sizes}](each start = 0);
+        equation der(h) = -h; when h < 1 then {first} end when; {other} end Places;"""
+    )
+    system = ac.compile(ac.load(tmp_path / "places.mo"))
+    path = ac.export.modelica(system, tmp_path / "written.mo")
+    lines = [line.strip() for line in path.read_text().splitlines()]
+    assert set(written) <= set(lines)
+    ours, again = (ac.simulate(s, 2.0) for s in (system, ac.compile(ac.load(path))))
+    names = [name for name in system.variables if name.startswith("b[")]
+    for name in names:
+        assert float(again[name][-1]) == pytest.approx(float(ours[name][-1]), rel=1e-6), name
+    assert names
