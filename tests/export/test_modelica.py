@@ -1,7 +1,9 @@
 """Modelica text, compiled and simulated by rumoca."""
 
+import copy
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import jax
@@ -354,3 +356,26 @@ def test_elements_that_a_when_assigns_keep_their_places(
     for name in names:
         assert float(again[name][-1]) == pytest.approx(float(ours[name][-1]), rel=1e-6), name
     assert names
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("mass.m", lambda m: m.mass.modify(m=5.0)),
+        ("mass.m", lambda m: m.mass.modify(m=2 * m.damper.d)),
+        ("mass.s", lambda m: m.mass.modify(s=ac.Start(0.3))),
+        ("mass.v", lambda m: m.mass.modify(v=ac.Start(0.0, fixed=False))),
+        ("brake", lambda m: setattr(m, "brake", tl.Damper(d=1.0))),
+        ("Oscillator", lambda m: m.connect(m.wall.flange, m.mass.flange_b)),
+    ],
+)
+def test_a_model_that_was_changed_after_it_was_compiled_is_refused(
+    name: str, change: Callable[[Oscillator], None], tmp_path: Path
+) -> None:
+    model = Oscillator()
+    system = ac.compile(model)
+    before = ac.export.modelica(copy.deepcopy(system), tmp_path / "osc.mo").read_text()
+    change(model)
+    with pytest.raises(ac.ModelError, match=rf"'{name}' was changed after .* compile it again"):
+        ac.export.modelica(system, tmp_path / "osc.mo")
+    assert (tmp_path / "osc.mo").read_text() == before
