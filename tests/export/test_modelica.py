@@ -226,10 +226,19 @@ def test_a_host_callback_is_named(tmp_path):
 
     system = ac.compile(Oscillator())
     params = {**system.parameters(), "spring_nn.net": law}
-    with pytest.raises(
-        ac.DataError, match="'pure_callback' of a network or a table has no counterpart"
-    ):
+    message = (
+        "'spring_nn.net': the operation 'pure_callback' of this network or table has no counterpart"
+    )
+    with pytest.raises(ac.DataError, match=message):
         ac.export.modelica(system, tmp_path / "a.mo", params)
+
+
+def test_a_table_that_needs_the_library_is_named(tmp_path: Path) -> None:
+    model = ac.Component()
+    model.lut = blocks.CombiTable1Ds(table=[[0.0, 1.0], [1.0, 3.0], [2.0, 4.0]])
+    with pytest.raises(ac.DataError, match=r"'lut.column\[1\]': .* leave out selfcontained=True"):
+        ac.export.modelica(model, tmp_path / "a.mo", selfcontained=True)
+    assert "CombiTable1Ds lut" in ac.export.modelica(model, tmp_path / "a.mo").read_text()
 
 
 class Angle(ac.Connector):
