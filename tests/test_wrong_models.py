@@ -990,7 +990,7 @@ FILES: dict[str, tuple[Any, tuple[str, ...]]] = {
     ),
     "a misspelt end": (
         netlist(connections=[["fixed.flange", "spring.flnge_a"]]),
-        ("connections[0]: there is no 'spring.flnge_a'; did you mean 'flange_a'?",),
+        ("connections[0]: there is no 'spring.flnge_a'; did you mean 'spring.flange_a'?",),
     ),
     "an end of nothing": (
         netlist(connections=[["fixed.flange", "sprng.flange_a"]]),

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal._jax import need_double_precision, need_known
 from acausal.errors import ModelError, need_flag, shown
-from acausal.export.needs import all_parameters, need_exportable
+from acausal.export.needs import all_parameters, need_exportable, need_unchanged
 from acausal.files import file_to_write, write_files
 from acausal.modeling import Component, InitialParameter, element_name
 from acausal.system import System, compile
@@ -44,7 +44,8 @@ def modelica(
     Raises:
         DataError: in one sentence, for parameters that do not fit, a network's operation that has no counterpart in
             Modelica, or what is no path of a file.
-        ModelError: for an equation that Modelica cannot state. ExportError: for a model with an FMU in it.
+        ModelError: for an equation that Modelica cannot state, or a system whose model was modified after it was
+            compiled. ExportError: for a model with an FMU in it.
     """
     need_double_precision()
     target = file_to_write(path, "export.modelica")
@@ -55,6 +56,8 @@ def modelica(
         raise ModelError(f"export.modelica needs a model or a system, not {shown(model, 40)}")
     system = model if isinstance(model, System) else compile(model)
     need_exportable(system, "modelica")
+    if system is model:
+        need_unchanged(system, "modelica")
     need_known("export.modelica", params)
     is_alone = need_flag(selfcontained, "selfcontained")
     given = all_parameters(system, params)

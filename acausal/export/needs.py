@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal.errors import DataError, ExportError, need_compiled, shown
+from acausal.errors import DataError, ExportError, ModelError, need_compiled, shown
+from acausal.flattening import changed
 from acausal.system import System
 
 
@@ -21,6 +22,20 @@ def need_exportable(system: System, function: str) -> None:
         raise ExportError(
             f"export.{function}: '{path or system.flat.name}' is an FMU, whose equations nobody knows; export the rest "
             "of the model, with inputs and outputs in its place, and connect both in a tool that imports FMUs."
+        )
+
+
+def need_unchanged(system: System, function: str) -> None:
+    """Refuse a system whose model was modified after it was compiled, where the model itself is written.
+
+    Raises:
+        ModelError: that names what has changed.
+    """
+    name = changed(system.model, system.flat)
+    if name is not None:
+        raise ModelError(
+            f"export.{function}: '{name}' was changed after the model was compiled, so the system is another model; "
+            "compile it again: system = ac.compile(model)"
         )
 
 

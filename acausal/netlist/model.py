@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import sympy as sp
 
-from acausal.errors import nearest
+from acausal.errors import like, nearest
 from acausal.modeling import Component, Connector, Eq, ModuleReference, When, is_vector
 
 START_KEYS = {"start": "value", "fixed": "fixed", "nominal": "nominal", "stateSelect": "state"}
@@ -175,7 +175,9 @@ def hint(model: Component, text: str) -> str:
     head, _, tail = text.rpartition(".")
     owner = attribute(model, head) if head else model
     if isinstance(owner, Component):
-        return nearest(tail, [*(n for n, _ in owner._node.declarations()), *owner._node.children])
+        known = [*(n for n, _ in owner._node.declarations()), *owner._node.children]
+        close = like(tail, known)
+        return f"did you mean '{head}.{close}'?" if head and close else nearest(tail, known)
     return nearest(text.partition(".")[0], model._node.children)
 
 

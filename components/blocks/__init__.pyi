@@ -890,6 +890,7 @@ class TableData(ac.Component):
         nHeaderLines: SupportsIndex = ...,
         verboseRead: bool = ...,
         verboseExtrapolation: bool = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class TerminateSimulation(ac.Component):
@@ -3679,6 +3680,7 @@ class CombiTable2Ds(SI2SO, TableData):
         u1: ac.Start | Mapping[str, Any] = ...,
         u2: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class CombiTable2Dv(MI2MO, TableData):
@@ -3709,6 +3711,7 @@ class CombiTable2Dv(MI2MO, TableData):
         u1: ac.Start | Mapping[str, Any] = ...,
         u2: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class Cosine(SignalSource):
@@ -3988,6 +3991,7 @@ class TimeTable(SO, TableData):
         column: Callable[..., Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         passed: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class Trapezoid(SignalSource):

@@ -63,9 +63,47 @@ def rows(component: Any) -> np.ndarray:
     else:
         table = component.table
     form, least = component.FORM
-    if table is None or np.ndim(table) != 2 or np.less(np.shape(table), least).any():
-        raise ac.DeclarationError(f"{type(component).__name__} needs table={form}, got {table!r}")
-    return np.asarray(table, dtype=float)
+    try:
+        found = np.asarray(table, dtype=float)
+    except (TypeError, ValueError):
+        raise ac.DeclarationError(f"{component._node.label}: {_fault(table)}") from None
+    if table is None or found.ndim != 2 or np.less(found.shape, least).any():
+        raise ac.DeclarationError(f"{component._node.label} needs table={form}, got {table!r:.80}")
+    return found
+
+
+def _fault(table: Any) -> str:
+    """Why rows are no array of numbers."""
+    lists = (list, tuple, np.ndarray)
+    given: Any = table if isinstance(table, lists) else []
+    lengths = [len(row) if isinstance(row, lists) else 0 for row in given]
+    for number, length in enumerate(lengths, 1):
+        if length != lengths[0]:
+            return (
+                f"the rows of table differ in length: row 1 has {lengths[0]} numbers, row {number} has {length}; "
+                "give each row all of its columns"
+            )
+    return f"table holds something that is no number: {table!r:.80}"
+
+
+def check_order(component: Any, values: np.ndarray, where: str, *, twice: bool) -> None:
+    """Refuse arguments of a table that do not ascend.
+
+    Arguments:
+        where: names them, such as "the first column of table".
+        twice: whether an argument may be there twice, as a jump.
+
+    Raises:
+        DeclarationError: that names the component and the place.
+    """
+    steps = np.diff(values)
+    wrong = np.flatnonzero(steps < 0 if twice else steps <= 0)
+    if len(wrong):
+        i = int(wrong[0])
+        raise ac.DeclarationError(
+            f"{component._node.label}: {where} must ascend, but {values[i]:.9g} is followed by {values[i + 1]:.9g}; "
+            "sort the table"
+        )
 
 
 def jumps(points: np.ndarray) -> list[float]:

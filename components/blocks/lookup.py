@@ -11,6 +11,7 @@ from acausal.components import icons
 
 from . import surfaces
 from .interfaces import MI2MO, SI2SO, MIMOs
+from .interpolation import check_order, rows
 from .tables import PartialColumns, TableData
 
 __modelica__ = "Modelica.Blocks.Tables"
@@ -76,6 +77,16 @@ class _Table2D(TableData):
     )
     surface = ac.Module("_surface", data=True)
 
+    def _rows(self) -> np.ndarray:
+        table = rows(self)
+        check_order(
+            self, table[1:, 0], "the first column of table, from its second row on,", twice=False
+        )
+        check_order(
+            self, table[0, 1:], "the first row of table, from its second column on,", twice=False
+        )
+        return table
+
     def _surface(self, _key: Any) -> surfaces.Surface:
         table = self._rows()
         for axis in (0, 1):  # a single line of values goes on as it is
@@ -83,8 +94,6 @@ class _Table2D(TableData):
                 table = np.concatenate([table, np.take(table, [1], axis)], axis)
                 table[(2, 0) if axis == 0 else (0, 2)] += 1
         x, y = table[1:, 0], table[0, 1:]
-        if (np.diff(x) <= 0).any() or (np.diff(y) <= 0).any():
-            raise ac.DeclarationError(f"{type(self).__name__}: the arguments in table must ascend")
         values = jnp.asarray(table[1:, 1:])
         return surfaces.Surface(
             jnp.asarray(x), jnp.asarray(y), values, self.smoothness, self.extrapolation

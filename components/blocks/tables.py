@@ -10,7 +10,16 @@ import acausal as ac
 from acausal.components import icons
 
 from .interfaces import MO, SO
-from .interpolation import EXTRAPOLATION, SMOOTHNESS, SPLINES, corners, interpolant, jumps, rows
+from .interpolation import (
+    EXTRAPOLATION,
+    SMOOTHNESS,
+    SPLINES,
+    check_order,
+    corners,
+    interpolant,
+    jumps,
+    rows,
+)
 
 __modelica__ = "Modelica.Blocks.Sources"
 
@@ -47,8 +56,15 @@ class TableData(ac.Component):
     verboseRead = ac.Option(True, doc="without effect")
     verboseExtrapolation = ac.Option(False, doc="without effect")
 
+    def __init__(self, **modifiers: Any) -> None:
+        super().__init__(**modifiers)
+        if self.table is not None:
+            self._rows()
+
     def _rows(self) -> np.ndarray:
-        return rows(self)
+        table = rows(self)
+        check_order(self, table[:, 0], "the first column of table", twice=True)
+        return table
 
 
 class _TimeTable(TableData):

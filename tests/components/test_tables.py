@@ -115,6 +115,50 @@ def test_files_are_read(tmp_path: Path) -> None:
             blocks.CombiTimeTable(tableOnFile=True, tableName="b", fileName=str(tmp_path / name))
 
 
+ORDER = "the first column of table must ascend, but 1 is followed by 0; sort the table"
+UNSORTED = [[-1.0, -5.0], [1.0, 1.0], [0.0, 0.0], [2.0, 8.0]]
+
+
+@pytest.mark.parametrize(
+    ("kind", "table", "message"),
+    [
+        (blocks.CombiTable1Ds, UNSORTED, f"CombiTable1Ds: {ORDER}"),
+        (blocks.CombiTable1Dv, UNSORTED, f"CombiTable1Dv: {ORDER}"),
+        (blocks.CombiTimeTable, UNSORTED, f"CombiTimeTable: {ORDER}"),
+        (blocks.TimeTable, UNSORTED, f"TimeTable: {ORDER}"),
+        (
+            blocks.CombiTable2Ds,
+            [[0, 1, 2], [3, 0, 0], [3, 0, 0]],
+            "CombiTable2Ds: the first column of table, from its second row on, must ascend, but 3 is followed by 3",
+        ),
+        (
+            blocks.CombiTable2Ds,
+            [[0, 2, 1], [3, 0, 0]],
+            "the first row of table, from its second column on, must ascend, but 2 is followed by 1",
+        ),
+        (
+            blocks.CombiTable1Ds,
+            [[-1, -5], [0, 0], [1]],
+            "CombiTable1Ds: the rows of table differ in length: row 1 has 2 numbers, row 3 has 1; give each row",
+        ),
+        (blocks.TimeTable, [[0, "a"]], r"TimeTable: table holds something that is no number"),
+    ],
+)
+def test_wrong_tables_are_refused_where_the_component_is_made(
+    kind: Any, table: Any, message: str
+) -> None:
+    with pytest.raises(ac.DeclarationError, match=message):
+        kind(table=table)
+
+
+def test_a_netlist_names_the_component_of_a_wrong_table(tmp_path: Path) -> None:
+    lut = {"class": "Modelica.Blocks.Tables.CombiTable1Ds", "with": {"table": UNSORTED}}
+    file = tmp_path / "lut.json"
+    file.write_text(json.dumps({"components": {"lut": lut}}), encoding="utf-8")
+    with pytest.raises(ac.ModelError, match=rf"lut.json: components.lut: CombiTable1Ds: {ORDER}"):
+        ac.load(file)
+
+
 def test_netlists_write_arrays(tmp_path: Path) -> None:
     rows = "transpose([0, 1; 1, 5; 2, 6])"
     periodic = "Modelica.Blocks.Types.Extrapolation.Periodic"

@@ -1,7 +1,9 @@
 """Modelica text, compiled and simulated by rumoca."""
 
+import copy
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import jax
@@ -224,10 +226,19 @@ def test_a_host_callback_is_named(tmp_path):
 
     system = ac.compile(Oscillator())
     params = {**system.parameters(), "spring_nn.net": law}
-    with pytest.raises(
-        ac.DataError, match="'pure_callback' of a network or a table has no counterpart"
-    ):
+    message = (
+        "'spring_nn.net': the operation 'pure_callback' of this network or table has no counterpart"
+    )
+    with pytest.raises(ac.DataError, match=message):
         ac.export.modelica(system, tmp_path / "a.mo", params)
+
+
+def test_a_table_that_needs_the_library_is_named(tmp_path: Path) -> None:
+    model = ac.Component()
+    model.lut = blocks.CombiTable1Ds(table=[[0.0, 1.0], [1.0, 3.0], [2.0, 4.0]])
+    with pytest.raises(ac.DataError, match=r"'lut.column\[1\]': .* leave out selfcontained=True"):
+        ac.export.modelica(model, tmp_path / "a.mo", selfcontained=True)
+    assert "CombiTable1Ds lut" in ac.export.modelica(model, tmp_path / "a.mo").read_text()
 
 
 class Angle(ac.Connector):
@@ -317,3 +328,63 @@ def test_signals_of_an_expandable_connector_are_connected_by_their_names(tmp_pat
     assert float(again["r.f.y"][-1]) == pytest.approx(
         float(ac.simulate(system, 2.0)["r.f.y"][-1]), rel=1e-9
     )
+
+
+@pytest.mark.parametrize(
+    ("sizes", "first", "second", "written"),
+    [
+        ("2", "b[2] = 20; b[1] = 10 + h;", "", ["b = {10 + h, 20};"]),
+        (
+            "2, 2",
+            "b[2,1] = 21; b[1,1] = h; b[1,2] = 12; b[2,2] = 22;",
+            "",
+            ["b = {{h, 12}, {21, 22}};"],
+        ),
+        (
+            "3",
+            "b[3] = 30; b[1] = h;",
+            "b[2] = 20 + h;",
+            ["b[3] = 30;", "b[1] = h;", "b[2] = 20 + h;"],
+        ),
+    ],
+)
+def test_elements_that_a_when_assigns_keep_their_places(
+    sizes: str, first: str, second: str, written: list[str], tmp_path: Path
+) -> None:
+    other = f"when h < 0.5 then {second} end when;" if second else ""
+    (tmp_path / "places.mo").write_text(
+        f"""model Places Real h(start = 2, fixed = true); discrete Real b[{sizes}](each start = 0);
+        equation der(h) = -h; when h < 1 then {first} end when; {other} end Places;"""
+    )
+    system = ac.compile(ac.load(tmp_path / "places.mo"))
+    path = ac.export.modelica(system, tmp_path / "written.mo")
+    lines = [line.strip() for line in path.read_text().splitlines()]
+    assert set(written) <= set(lines)
+    ours, again = (ac.simulate(s, 2.0) for s in (system, ac.compile(ac.load(path))))
+    names = [name for name in system.variables if name.startswith("b[")]
+    for name in names:
+        assert float(again[name][-1]) == pytest.approx(float(ours[name][-1]), rel=1e-6), name
+    assert names
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("mass.m", lambda m: m.mass.modify(m=5.0)),
+        ("mass.m", lambda m: m.mass.modify(m=2 * m.damper.d)),
+        ("mass.s", lambda m: m.mass.modify(s=ac.Start(0.3))),
+        ("mass.v", lambda m: m.mass.modify(v=ac.Start(0.0, fixed=False))),
+        ("brake", lambda m: setattr(m, "brake", tl.Damper(d=1.0))),
+        ("Oscillator", lambda m: m.connect(m.wall.flange, m.mass.flange_b)),
+    ],
+)
+def test_a_model_that_was_changed_after_it_was_compiled_is_refused(
+    name: str, change: Callable[[Oscillator], None], tmp_path: Path
+) -> None:
+    model = Oscillator()
+    system = ac.compile(model)
+    before = ac.export.modelica(copy.deepcopy(system), tmp_path / "osc.mo").read_text()
+    change(model)
+    with pytest.raises(ac.ModelError, match=rf"'{name}' was changed after .* compile it again"):
+        ac.export.modelica(system, tmp_path / "osc.mo")
+    assert (tmp_path / "osc.mo").read_text() == before

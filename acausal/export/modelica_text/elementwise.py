@@ -41,8 +41,8 @@ KNOWN_CONDITIONS = {
 def refuse(equation: Equation) -> DataError:
     """The error for an operation that has no counterpart."""
     return DataError(
-        f"export.modelica: the operation '{name_of(equation)}' of a network or a table has no counterpart in Modelica; "
-        "write it without, or export the model as an FMU"
+        f"the operation '{name_of(equation)}' of this network or table has no counterpart in Modelica; write it "
+        "without, export the model as an FMU, or, if it is a table of the library, leave out selfcontained=True"
     )
 
 

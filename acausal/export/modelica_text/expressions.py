@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import sympy as sp
 from sympy.core.relational import Relational
 from sympy.printing.str import StrPrinter
 
 from acausal.errors import ModelError
 from acausal.export.modelica_text.discrete import cases, is_discrete, is_whole
-from acausal.export.modelica_text.spelling import number, text as quoted
+from acausal.export.modelica_text.spelling import array as array_text, number, text as quoted
 from acausal.modeling import (
     HALF,
     INITIAL,
@@ -24,6 +25,7 @@ from acausal.modeling import (
     Reinit,
     Tick,
     When,
+    element_names,
     time,
 )
 
@@ -267,7 +269,7 @@ def equation(names: Names, stated: Any, indent: str) -> list[str]:
 
 
 def _when(names: Names, stated: When, indent: str) -> list[str]:
-    """All branches assign the same variables, each array as a whole (Modelica 3.6, section 8.3.5)."""
+    """All branches assign the same variables (Modelica 3.6, section 8.3.5)."""
     printer, lines = AtEvents(names), list[str]()
     every = {s.lhs: None for link in stated.chain() for s in link.statements if isinstance(s, Eq)}
     for link in stated.chain():
@@ -283,8 +285,7 @@ def _when(names: Names, stated: When, indent: str) -> list[str]:
                 lines.append(f"{indent}  reinit({state}, {value});")
             else:
                 becomes[statement.lhs] = printer.value(statement.lhs, statement.rhs)
-        named = {names.reference(v): text for v, text in becomes.items()}
-        lines += [f"{indent}  {name} = {text};" for name, text in _arrays(named).items()]
+        lines += [f"{indent}  {name} = {text};" for name, text in _arrays(names, becomes).items()]
     return [*lines, f"{indent}end when;"]
 
 
@@ -302,17 +303,17 @@ def _comes(printer: Printer, condition: Any) -> list[str]:
     return [text, f"initial() and time >= {start} and time <= {start}"]
 
 
-def _arrays(texts: Mapping[str, str]) -> dict[str, str]:
-    """Elements ``x[1]``, ``x[2]`` ... as one array, ``x``; all of them are there."""
-    found: dict[str, str] = {}
-    groups: dict[str, list[str]] = {}
-    for name, text in texts.items():
-        array, bracket, _ = name.rpartition("[")
-        if bracket and name.endswith("]") and "," not in name[len(array) :]:
-            groups.setdefault(array, []).append(text)
-            found[array] = "{" + ", ".join(groups[array]) + "}"
-        else:
-            found[name] = text
+def _arrays(names: Names, texts: Mapping[Any, str]) -> dict[str, str]:
+    """What variables become, by name: an array as a whole where all of its elements are there, else by element."""
+    found = {names.reference(variable): text for variable, text in texts.items()}
+    for variable in texts:
+        array, _, _ = names.reference(variable).rpartition("[")
+        local, _, _ = variable.path.rpartition("[")
+        shape = variable.owner.shape(local, variable.declaration) if local else None
+        elements = element_names(array, shape)
+        if shape and found.keys() >= set(elements):
+            whole = np.reshape([found.pop(element) for element in elements], shape)
+            found[array] = array_text(whole, str)
     return found
 
 

@@ -55,7 +55,7 @@ def block_class(name: str, network: Callable[..., Any], orders: Sequence[int]) -
     except Exception as error:  # an exception of the user's own code
         reason = str(error).splitlines()[0]
         raise DataError(
-            f"export.modelica: {shown(network, 40)} cannot be traced with {len(inputs)} inputs ({reason}); "
+            f"{shown(network, 40)} cannot be traced with {len(inputs)} inputs ({reason}); "
             "write it in jax.numpy"
         ) from None
     block = Body()

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.errors import ModelError
+from acausal.errors import DataError, ModelError
 from acausal.export.modelica_text.declared import (
     Flat,
     connector_class,
@@ -111,13 +111,20 @@ class Package:
         return self.connector(role, "") or self.add(own, lambda n: f"connector {n} = {word} Real;")
 
     def network(self, name: str, orders: tuple[int, ...]) -> str:
-        """The block of a network, or of a derivative of it."""
+        """The block of a network, or of a derivative of it.
+
+        Raises:
+            DataError: that names the network, if it has no counterpart in Modelica.
+        """
         module = self.networks[name]
         key = (id(module), orders)
         if key not in self.blocks:
             suffix = "_d" + "".join(map(str, orders)) if any(orders) else ""
             wanted = f"{name[0].upper()}{name[1:]}{suffix}"
-            self.blocks[key] = self.add(wanted, lambda n: block_class(n, module, orders))
+            try:
+                self.blocks[key] = self.add(wanted, lambda n: block_class(n, module, orders))
+            except DataError as error:
+                raise DataError(f"export.modelica: '{name}': {error}") from None
         return self.blocks[key]
 
     def model(self, component: Component, wanted: str, inputs: Sequence[str] | None = None) -> str:
