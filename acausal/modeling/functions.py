@@ -188,7 +188,7 @@ def has_whole_values(x: Any, is_whole: Callable[[Any], bool] = _is_counted) -> b
         return True
     parts = x.args
     if isinstance(x, sp.Piecewise):
-        parts = tuple(value for value, _ in x.args)
+        parts = tuple(branch.args[0] for branch in x.args)
     elif isinstance(x, sp.Pow):
         return x.exp.is_Integer and x.exp > 0 and has_whole_values(x.base, is_whole)
     elif not isinstance(x, sp.Add | sp.Mul | sp.Abs | sp.Max | sp.Min):
