@@ -5,6 +5,7 @@ computes of them. It knows no steps: `acausal.simulation.steps` makes them.
 """
 
 from acausal.events.consistent_start import (
+    STARTS as STARTS,
     before_events as before_events,
     non_converged as non_converged,
     start_of as start_of,

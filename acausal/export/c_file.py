@@ -34,10 +34,11 @@ register restrict return short signed sizeof static struct switch typedef union 
 _MATH = """acos asin atan atan2 ceil cos cosh exp expm1 fabs floor fmax fmin fmod hypot isfinite isinf isnan log log1p
 nearbyint pow remainder round signbit sin sinh sqrt tan tanh tgamma lgamma erf erfc cbrt trunc real"""
 
-_OWN = """all_finite attempt came_true condition_rates conditions copy end_with_event equal excess factor fill_d fill_p
-fill_x find_due find_edge fire force is_ahead is_reset iterate jacobian_column jumped look look_at_points limits
-lu_factor lu_solve maximum minimum next_length once_more outputs rates recalibrate resets same signum solve_stage strict
-switched tangent ticks timed updated within_limits x u y p d t m h Model Status"""
+_OWN = """all_finite attempt begin_modes came_true condition_rates conditions copy discrete_starts end_with_event equal
+excess factor fill_d fill_p fill_x find_due find_edge find_modes find_states fire force guesses is_ahead is_reset
+iterate jacobian_column jumped look look_at_points limits lu_factor lu_solve maximum minimum next_length once_more
+outputs rates recalibrate resets same signum solve_stage starts strict switched tangent ticks timed updated
+within_limits x u y p d t m h Model Status"""
 
 RESERVED = frozenset(f"{_KEYWORDS} {_MATH} {_OWN}".split())
 """Words of C, of its mathematics, and of the functions in a model's file."""
@@ -63,7 +64,7 @@ def c(
 
     Networks, wrappers and Newton's method for algebraic loops are part of it; arrays of components are loops. The
     header says how to use it. Start values that follow from parameters or inputs are computed there, too, unless they
-    need an operation without C or much memory; the header says so.
+    need an operation without C or much memory; a warning names them, and the header says so.
 
     An observer's step is one function of one struct: time, inputs and measurements go in, and it remembers the rest, as
     `Observer.step` does.

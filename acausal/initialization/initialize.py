@@ -155,9 +155,10 @@ class Initializer(LeavesCaches):
         packed: Packed,
         u0: Float[Array, " n_inputs"],
         t0: float | Array = 0.0,
+        d: Float[Array, " n_discrete"] | None = None,
     ) -> Float[Array, " n_states"]:
         """Initial states, or NaN where the conditions cannot all hold: for programs that raise no errors."""
-        at = Values(array(t0), self.conditions.starts(packed), u0, packed)
+        at = Values(array(t0), self.conditions.starts(packed), u0, packed, d)
         plan, found = self._solution(at, {})
         met = jnp.all(jnp.abs(found.residuals) < LEFT_OVER)
         return found.x if plan is None else jnp.where(met, found.x, jnp.nan)

@@ -51,3 +51,58 @@ class Redundant(ac.Component):
     def initial_equations(self) -> Iterator[Any]:
         yield ac.Eq(self.x**2, self.square)
         yield ac.Eq(3 * self.x**2, 3 * self.square)
+
+
+class Filling(ac.Component):
+    """A lag that starts at a parameter, and counts from another one how often it fills up."""
+
+    k = ac.Parameter(2.0)
+    x0 = ac.Parameter(0.3)
+    n0 = ac.Parameter(1.0)
+    u = ac.Input()
+    x = ac.Variable(start="x0", fixed=True)
+    n = ac.Discrete("n0", kind="int")
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), -self.k * self.x + self.u)
+        yield ac.When(self.x > 0.6, ac.Eq(self.n, ac.pre(self.n) + 1))
+
+
+class Pressed(ac.Component):
+    """A mass that starts without acceleration, against a friction that depends on the speed that is to be found.
+
+    The force grows with the number of times that it has passed a level.
+    """
+
+    c = ac.Parameter(40.0)
+    slow = ac.Parameter(0.5)
+    fast = ac.Parameter(3.0)
+    s0 = ac.Parameter(0.1)
+    n0 = ac.Parameter(2.0)
+    u = ac.Input()
+    s = ac.Variable(start="s0", fixed=True)
+    v = ac.Variable()
+    n = ac.Discrete("n0", kind="int")
+
+    def equations(self) -> Iterator[Any]:
+        above = self.v - 1
+        friction = self.slow * self.v + ac.where(above > 0, self.fast * above, 0, events=True)
+        force = self.u * (1 + 0.1 * self.n) - self.c * self.s
+        yield ac.Eq(ac.der(self.s), self.v)
+        yield ac.Eq(ac.der(self.v), force - friction)
+        yield ac.When(self.s > 0.2, ac.Eq(self.n, ac.pre(self.n) + 1))
+
+    def initial_equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.v), 0)
+
+
+class Kicked(ac.Component):
+    """A lag that a clock doubles at the start, and every second after that."""
+
+    x0 = ac.Parameter(0.3)
+    k = ac.Parameter(2.0)
+    x = ac.Variable(start="x0", fixed=True)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), -self.k * self.x)
+        yield ac.When(ac.sample(0.0, 1.0), ac.Reinit(self.x, 2 * self.x))

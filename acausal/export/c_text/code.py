@@ -12,12 +12,13 @@ import jax
 import jax.numpy as jnp
 
 from acausal.codegen import INSTRUCTION, Values, described
-from acausal.errors import ExportError, shortened
+from acausal.errors import shortened
 from acausal.events import Events
 from acausal.export.c_text.calibration import split
 from acausal.export.c_text.events import ARGUMENTS as OF_EVENTS, event_functions
 from acausal.export.c_text.functions import CArgument, CFunction, write_function
 from acausal.export.c_text.lowering import Workspace
+from acausal.export.c_text.starts import start_functions
 from acausal.export.c_text.statements import Buffer
 from acausal.export.ranges import Watch
 from acausal.export.traced import TracedBlock, TracedValue, trace
@@ -54,9 +55,6 @@ class Code:
     sizes: Sizes
     events: Events | None
 
-
-MOST_FOR_STARTS = 10_000
-"""Most numbers of working memory that start values may take."""
 
 EXCESS = "excess"
 """The function that tells by how far an argument of a network lies outside of its range: positive where one does."""
@@ -154,34 +152,12 @@ def write_code(
             names, result = OF_EVENTS[name]
             add(name, function, [result], *names)
     functions["recalibrate"] = known.function(common[ARGUMENTS.index("p")], file)
-    starts = _starts(vector, given("t", "u", "p"), file) if events is None else None
-    if starts is not None:
-        functions["starts"] = starts
+    functions |= start_functions(vector, dict(zip(ARGUMENTS, common, strict=True)), file)
     lengths = Sizes(
         n_states, n_inputs, len(outputs), vector.size, n_discrete, n_conditions, known.size,
         max(f.real for f in functions.values()), max(f.whole for f in functions.values()),
     )  # fmt: skip
     return Code(functions, file, lengths, events)
-
-
-def _starts(
-    vector: ParameterVector, arguments: Sequence[CArgument], file: Workspace
-) -> CFunction | None:
-    """The states at the start, from time, inputs and parameters; None if they depend on none of these, or have no C."""
-    system = vector.system
-
-    def evaluate(t: Any, u: Any, p: Any) -> Any:
-        return (system.initializer.start_or_nan(vector.packed(p), u, t),)
-
-    block = trace(evaluate, *(jnp.zeros(a.shape) for a in arguments))
-    try:
-        found = write_function(
-            block, arguments, [(Buffer("x", "real", len(system.states)), 0)], file
-        )
-    except ExportError:
-        return None
-    reads = re.search(r"\b[pu]\[|\bt\b", "\n".join(found.lines))
-    return found if reads and found.real <= MOST_FOR_STARTS else None
 
 
 def _origin(system: System, stack: str) -> str:

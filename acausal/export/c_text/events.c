@@ -324,14 +324,29 @@ Status model_step(Model *m, const real h, const real *u_end) {
     return STATUS_OK;
 }
 
-Status model_begin(Model *m) {
+/* What discrete variables begin with. */
+static void begin_modes(Model *m) {
+#if DISCRETE_STARTS
+    discrete_starts(m, m->d);
+#else
     fill_d(m->d);
-    for (int i = 0; i < GUARDS; i++) m->e.band[i] = -1, m->e.deadband[i] = m->e.usual[i] = 0;
-    m->e.chattering = 0;
-    m->e.last_event = -INFINITY;
+#endif
+}
+
+/* Discrete variables that agree with m->x, as they are before the first event; 0 if there are none. */
+static int find_modes(Model *m) {
+    begin_modes(m);
+    for (int i = 0; i < GUARDS; i++) m->e.band[i] = -1;
     copy(m->x, m->e.x_before, STATES);
     copy(m->d, m->e.d_before, DISCRETE);
-    if (!iterate(m, m->time, m->u, 1)) return STATUS_EVENT_ITERATION;
+    return iterate(m, m->time, m->u, 1);
+}
+
+Status model_begin(Model *m) {
+    for (int i = 0; i < GUARDS; i++) m->e.deadband[i] = m->e.usual[i] = 0;
+    m->e.chattering = 0;
+    m->e.last_event = -INFINITY;
+    if (!find_modes(m)) return STATUS_EVENT_ITERATION;
     force(m, m->time, m->u, COINCIDE * fabs(m->time));
     return fire(m, m->time, m->u, NULL, 0);
 }

@@ -18,6 +18,7 @@ from acausal.events import (
     FORCED,
     ONE_BY_ONE,
     PASSES,
+    STARTS,
     TRIES,
     Events,
     coincide,
@@ -82,6 +83,7 @@ def constants(precision: str) -> Iterator[str]:
         "DOUBTED": DOUBTED,
         "FORCED": FORCED,
         "ONE_BY_ONE": ONE_BY_ONE,
+        "STARTS_IN_TURN": STARTS,
     }
     yield from (f"#define {name} R({value!r})" for name, value in reals.items())
     yield f"enum {{ {', '.join(f'{name} = {count}' for name, count in counts.items())} }};"

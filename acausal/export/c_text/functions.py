@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -88,6 +89,21 @@ def write_function(
     lines = [*_pointers(work.work, offsets), *written(statements)]
     sizes = {a.buffer.name: a.buffer.size for a in arguments}
     return CFunction(sizes, tuple(buffer.name for buffer, _ in results), tuple(lines), real, whole)
+
+
+def mentions(lines: Sequence[str], name: str) -> bool:
+    """Whether some lines of C read a variable."""
+    return mentioned(without_comments(lines), name)
+
+
+def mentioned(body: str, name: str) -> bool:
+    """Whether a text without comments reads a variable."""
+    return re.search(rf"(?<![\w>.]){name}\b", body) is not None
+
+
+def without_comments(lines: Sequence[str]) -> str:
+    """Lines of C as one text."""
+    return re.sub(r"/\*.*?\*/", "", "\n".join(lines))
 
 
 def _pointers(buffers: Sequence[Buffer], offsets: dict[str, int]) -> Iterator[str]:

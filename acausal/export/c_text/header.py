@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from acausal.export.c_text.text import ModelText, c_file, least
 from acausal.export.names import NameRange
 
-_EVENT_HELP = """   NAME_begin(&m);                before the first step: what holds at the start, at m.time
+_EVENT_HELP = """   NAME_begin(&m);                before the first step, after NAME_start: what holds at m.time
    m.d holds the discrete variables; steps end at events, where they change. Who makes steps of his own uses
    NAME_conditions(&m);           m.e.number: an event is where one of these changes its sign
    NAME_next_event(&m);           or at this time

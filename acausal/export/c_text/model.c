@@ -12,6 +12,7 @@ void model_init(Model *m) {
     recalibrate(m);
 }
 
+#if !STARTS_IN_MODES
 Status model_start(Model *m) {
 #if STARTS
     starts(m, m->time, m->u, m->x);
@@ -21,6 +22,7 @@ Status model_start(Model *m) {
     return STATUS_OK;
 #endif
 }
+#endif
 
 Status model_recalibrate(Model *m) {
     recalibrate(m);

@@ -7,15 +7,16 @@ name belongs.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 
 import numpy as np
 
 from acausal.export.c_text import events
 from acausal.export.c_text.code import EXCESS
 from acausal.export.c_text.expressions import literal
-from acausal.export.c_text.functions import CFunction
+from acausal.export.c_text.functions import CFunction, mentioned, without_comments
 from acausal.export.c_text.lowering import Workspace
+from acausal.export.c_text.starts import DISCRETE_STARTS, GUESSES, STARTS
 from acausal.export.c_text.steps import attempt_lines, step_lines
 from acausal.export.c_text.text import ModelText, c_file, least, opening, prelude
 from acausal.simulation import (
@@ -50,6 +51,8 @@ def _lines(text: ModelText) -> Iterator[str]:
         ("EVENTS", text.has_events),
         ("EDGES", text.has_edges),
         ("STARTS", text.has_starts),
+        ("STARTS_IN_MODES", text.starts_in_modes),
+        ("DISCRETE_STARTS", text.has_discrete_starts),
         ("TANGENT", text.has_tangent),
         ("WATCHES", text.watches),
     ):
@@ -58,7 +61,7 @@ def _lines(text: ModelText) -> Iterator[str]:
     yield f"enum {{ KNOWN = {sizes.known} }};"
     yield ""
     yield from helpers(text.code.functions.values(), text.code.memory)
-    for function in ("rates", "outputs", "tangent", "recalibrate", "starts", EXCESS):
+    for function in ("rates", "outputs", "tangent", "recalibrate", STARTS, GUESSES, EXCESS):
         if function in text.code.functions:
             yield from _function(text, function)
     yield from _edges(text)
@@ -75,12 +78,12 @@ def _lines(text: ModelText) -> Iterator[str]:
 
 def helpers(functions: Iterable[CFunction], memory: Workspace) -> Iterator[str]:
     """Helper functions, and tables, that some functions need."""
-    bodies = "\n".join(_without_comments(f.lines) for f in functions)
+    bodies = "\n".join(without_comments(f.lines) for f in functions)
     for helper, lines in sorted(prelude().items()):
-        if helper == "all_finite" or (helper in memory.prelude and _mentions(bodies, helper)):
+        if helper == "all_finite" or (helper in memory.prelude and mentioned(bodies, helper)):
             yield from (lines, "")
     for table in memory.tables:
-        if _mentions(bodies, table.name):
+        if mentioned(bodies, table.name):
             yield from _table(table.name, np.asarray(table.table), table.kind)
     yield ""
 
@@ -88,7 +91,7 @@ def helpers(functions: Iterable[CFunction], memory: Workspace) -> Iterator[str]:
 def _function(text: ModelText, name: str, left_out: Collection[str] = ()) -> Iterator[str]:
     """A function of the file: arguments, pointers to what it reads of the struct, statements."""
     function = text.code.functions[name]
-    body = _without_comments(function.lines)
+    body = without_comments(function.lines)
     given = [a for a in function.arguments if a not in (*FIELDS, *left_out)]
     filled = [r for r in function.results if r not in FIELDS]
     head = [f"{text.name} *m"]
@@ -96,11 +99,11 @@ def _function(text: ModelText, name: str, left_out: Collection[str] = ()) -> Ite
     head += [f"real *restrict {r}" for r in filled]
     yield f"static void {name}({', '.join(head)}) {{"
     for field in FIELDS:
-        if _mentions(body, field):
+        if mentioned(body, field):
             const = "" if name == "recalibrate" and field == "known" else "const "
             yield f"    {const}real *const {field} = m->{field};"
-    unused = [a for a in (*given, *filled) if not _mentions(body, a)]
-    if not re.search(r"\bm\b", body) and not any(_mentions(body, f) for f in FIELDS):
+    unused = [a for a in (*given, *filled) if not mentioned(body, a)]
+    if not re.search(r"\bm\b", body) and not any(mentioned(body, f) for f in FIELDS):
         unused.append("m")
     if unused:
         yield "    " + " ".join(f"(void){a};" for a in unused)
@@ -119,12 +122,15 @@ def _steps(text: ModelText) -> Iterator[str]:
         yield from events.constants("float32" if text.precision == "float" else "float64")
         yield from events.tables(found)
         yield ""
-        for function in events.ARGUMENTS:
-            yield from _function(text, function)
+        for function in (*events.ARGUMENTS, DISCRETE_STARTS):
+            if function in text.code.functions:
+                yield from _function(text, function)
         yield "static Status attempt(Model *m, const real t, const real h) {"
         yield from attempt_lines(text.scheme, name)
         yield from ("}", "")
         yield from c_file("events.c", name)
+        if text.starts_in_modes:
+            yield from ("", *c_file("starts_in_modes.c", name))
         return
     head = "static Status piece" if text.has_edges else f"Status {name}_step"
     yield f"{head}(Model *m, const real h, const real *u_end) {{"
@@ -184,19 +190,6 @@ def _variables(text: ModelText) -> Iterator[str]:
             yield '    {"", "", 0, 1, 0}'
         yield "};"
     yield ""
-
-
-def mentions(lines: Sequence[str], name: str) -> bool:
-    """Whether some lines of C read a variable."""
-    return _mentions(_without_comments(lines), name)
-
-
-def _without_comments(lines: Sequence[str]) -> str:
-    return re.sub(r"/\*.*?\*/", "", "\n".join(lines))
-
-
-def _mentions(body: str, name: str) -> bool:
-    return re.search(rf"(?<![\w>.]){name}\b", body) is not None
 
 
 def _c(text: str) -> str:

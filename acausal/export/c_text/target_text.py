@@ -13,10 +13,10 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal.export.c_text.expressions import literal
-from acausal.export.c_text.functions import CArgument, CFunction, write_function
+from acausal.export.c_text.functions import CArgument, CFunction, mentions, write_function
 from acausal.export.c_text.header import field_lines
 from acausal.export.c_text.lowering import Workspace
-from acausal.export.c_text.source import helpers, mentions
+from acausal.export.c_text.source import helpers
 from acausal.export.c_text.statements import Buffer
 from acausal.export.c_text.text import least, opening
 from acausal.export.names import runs

@@ -11,6 +11,7 @@ from importlib.resources import files
 import numpy as np
 
 from acausal.export.c_text.code import EXCESS, Code
+from acausal.export.c_text.starts import DISCRETE_STARTS, GUESSES, STARTS
 from acausal.export.names import NameRange
 from acausal.export.vector import ParameterVector
 from acausal.simulation import Tableau
@@ -57,7 +58,17 @@ class ModelText:
     @property
     def has_starts(self) -> bool:
         """Whether start values follow from time, inputs and parameters."""
-        return "starts" in self.code.functions
+        return STARTS in self.code.functions
+
+    @property
+    def starts_in_modes(self) -> bool:
+        """Whether start values depend on discrete variables, too."""
+        return GUESSES in self.code.functions
+
+    @property
+    def has_discrete_starts(self) -> bool:
+        """Whether start values of discrete variables follow from parameters."""
+        return DISCRETE_STARTS in self.code.functions
 
     @property
     def of_start(self) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from acausal.export.c_text.code import EXCESS
-from acausal.export.c_text.source import mentions
+from acausal.export.c_text.functions import mentions
 from acausal.export.c_text.text import ModelText
 from acausal.export.fmu_text.variables import (
     DERIVATIVE,

@@ -30,11 +30,8 @@ typedef struct {
     int has_dx, has_y; /* m.dx, m.y belong to the present point */
     int starting, begun; /* not yet initialized; what holds at the start has been found */
     int outside, held; /* outside of the training range; held between two events of model exchange */
-#if EVENTS
     double x_start[LEAST(N_STATES)]; /* states before that */
-#else
     char given[LEAST(N_STATES)];     /* states whose start values the importer has set */
-#endif
 } State;
 
 typedef struct {
@@ -167,24 +164,7 @@ static int after_event(Instance *c, int status) {
     return complain(c, DISCARD, TITLE ": %s at t = %.9g s.", REASONS[status], c->now.m.time);
 }
 
-/* What holds at the start. */
-static int find_start(Instance *c) {
-    State *now = &c->now;
-    if (!now->starting || now->begun) return OK;
-    calibrate(c);
-    memcpy(now->x_start, now->m.x, sizeof now->x_start);
-    now->begun = 1;
-    return after_event(c, (int)model_begin(&now->m));
-}
-
-/* Something changes before the start, so it is to be found again. */
-static void change_start(Instance *c) {
-    State *now = &c->now;
-    if (now->starting && now->begun) memcpy(now->m.x, now->x_start, sizeof now->x_start);
-    now->begun = 0;
-}
-
-static void give_start(Instance *c, Place place) { (void)c, (void)place; }
+static int begin_events(Instance *c) { return after_event(c, (int)model_begin(&c->now.m)); }
 
 /* An event; whether states have changed, and when the next one is due. */
 static int update(Instance *c, int *changed, int *has_next, double *next) {
@@ -222,25 +202,7 @@ static void completed(Instance *c) {
     c->now.m.time = time;
 }
 #else
-/* Start values that follow from parameters and inputs; those that the importer has set stay. */
-static int find_start(Instance *c) {
-    State *now = &c->now;
-    if (!now->starting || now->begun) return OK;
-    calibrate(c);
-    memcpy(c->before, now->m.x, sizeof c->before);
-    const int failed = model_start(&now->m) != 0;
-    for (int i = 0; i < N_STATES; i++)
-        if (failed || now->given[i]) now->m.x[i] = c->before[i];
-    now->begun = 1;
-    moved(c);
-    if (!failed) return OK;
-    return complain(c, DISCARD, TITLE ": no start values satisfy the initial conditions with these parameters.");
-}
-static void change_start(Instance *c) { c->now.begun = 0; }
-static void give_start(Instance *c, Place place) {
-    for (int k = 0; k < place.count && c->now.starting; k++)
-        c->now.given[place.at - c->now.m.x + k * place.stride] = 1;
-}
+static int begin_events(Instance *c) { return (void)c, OK; }
 static int update(Instance *c, int *changed, int *has_next, double *next) {
     *changed = *has_next = 0;
     *next = 0;
@@ -255,6 +217,34 @@ static int update(Instance *c, int *changed, int *has_next, double *next) {
 static int find_indicators(Instance *c) { return (void)c, OK; }
 static void completed(Instance *c) { (void)c; }
 #endif
+
+/* Start values that follow from parameters and inputs, and what holds there; those that the importer has set stay. */
+static int find_start(Instance *c) {
+    State *now = &c->now;
+    if (!now->starting || now->begun) return OK;
+    calibrate(c);
+    memcpy(now->x_start, now->m.x, sizeof now->x_start);
+    const int status = (int)model_start(&now->m);
+    for (int i = 0; i < N_STATES; i++)
+        if (status || now->given[i]) now->m.x[i] = now->x_start[i];
+    now->begun = 1;
+    moved(c);
+    if (!status) return begin_events(c);
+    const char *why = status == 1 ? "no start values satisfy the initial conditions" : REASONS[status];
+    return complain(c, DISCARD, TITLE ": %s with these parameters.", why);
+}
+
+/* Something changes before the start, so it is to be found again. */
+static void change_start(Instance *c) {
+    State *now = &c->now;
+    if (now->starting && now->begun) memcpy(now->m.x, now->x_start, sizeof now->x_start);
+    now->begun = 0;
+}
+
+static void give_start(Instance *c, Place place) {
+    for (int k = 0; k < place.count && c->now.starting; k++)
+        c->now.given[place.at - c->now.m.x + k * place.stride] = 1;
+}
 
 static int end_start(Instance *c) {
     const int status = find_start(c);
@@ -503,6 +493,7 @@ static int advance(Instance *c, double from, double h) {
 static void start(Instance *c) {
     memset(&c->now, 0, sizeof c->now);
     model_init(&c->now.m);
+    memcpy(c->now.x_start, c->now.m.x, sizeof c->now.x_start);
     c->now.starting = 1;
     c->now.begun = !EVENTS; /* start values are those of the parameters */
     c->reached = 0;
