@@ -51,6 +51,7 @@ def trained_on(*records: RecordFit) -> Any:
     units = {"mass.s": "m", "push.f": "N"}
     return SimpleNamespace(
         system=SimpleNamespace(unit=units.__getitem__),
+        arguments={},
         problem=SimpleNamespace(targets=("mass.s",)),
         records={r.name: r for r in records},
     )
