@@ -45,7 +45,10 @@ def _difference(then: FlatModel, now: FlatModel) -> str | None:
 
 def _of_equations(then: FlatModel, now: FlatModel, layout: Layout) -> str | None:
     """The component of an equation or connection that differs."""
-    old, new = list(then.equations(initial=True)), list(now.equations(initial=True))
+    old, new = (
+        [*flat.equations(initial=True), *(asserted.group for asserted in flat.assertions)]
+        for flat in (then, now)
+    )
     for before, after in zip(old, new, strict=False):
         if not _same(before, after):
             component = int(before.components[0])

@@ -294,8 +294,12 @@ class Initializer(LeavesCaches):
                 node, sign = self.reduced.resolve(index)
                 places = np.flatnonzero(self.reduced.meant[self.reduced.states] == node).tolist()
                 if node in self.reduced.discrete:
-                    self._need_discrete(name, node, value)
-                    discrete[self._places[node]] = -value if sign < 0 else value
+                    place = self._places[node]
+                    if place in discrete:
+                        raise DataError(
+                            f"x0: '{name}' and another name are the same; give one of them"
+                        )
+                    discrete[place] = self._discrete_start(name, node, value, sign)
                     continue
                 state = self.names[places[0]] if places else name
                 value = -value if sign < 0 and is_number(value) else value
@@ -320,26 +324,28 @@ class Initializer(LeavesCaches):
         names = {flat.layout.variable(i): i for i in flat.remembered.tolist()}
         return {n: self.reduced.resolve(i)[0] for n, i in names.items() if not is_hidden(n)}
 
-    def _need_discrete(self, name: str, node: int, value: Any) -> None:
-        """Refuse what cannot be the start of a discrete variable."""
-        if node not in self._remembered.values():
-            known = f" Give {listing(self._remembered, 6)}." if self._remembered else ""
+    def _discrete_start(self, name: str, node: int, value: Any, sign: int) -> Any:
+        """The start of a discrete variable, which may have been given by another name."""
+        known = {node: own for own, node in self._remembered.items()}
+        if node not in known:
+            remedy = f" Give {listing(self._remembered, 6)}." if self._remembered else ""
             raise DataError(
-                f"x0: '{name}' follows from other variables at the start, and has no value of its own.{known}"
+                f"x0: '{name}' follows from other variables at the start, and has no value of its own.{remedy}"
             )
-        layout = self.reduced.model.layout
-        index = layout.find_variable(name)
-        kind = (
-            "real" if index is None else getattr(layout.variable_declaration(index), "kind", "real")
-        )
         if not is_number(value):
             raise DataError(f"x0: '{name}' is {shown(value)}; give a real number that is finite.")
-        number = None if kind == "real" or traced(value) else float(value)
-        if number is not None and number not in (
-            (0.0, 1.0) if kind == "bool" else (round(number),)
-        ):
+        found, layout = -value if sign < 0 else value, self.reduced.model.layout
+        index = layout.find_variable(known[node])
+        declared = None if index is None else layout.variable_declaration(index)
+        kind = getattr(declared, "kind", "real")
+        if kind == "real" or traced(found):
+            return found
+        allowed = (0.0, 1.0) if kind == "bool" else (round(float(found)),)
+        if float(found) not in allowed:
             what = "True or False" if kind == "bool" else "a whole number"
-            raise DataError(f"x0: '{name}' is {shown(value)}; give {what}.")
+            whose = "" if name == known[node] else f", so that '{known[node]}' is {float(found):g}"
+            raise DataError(f"x0: '{name}' is {shown(value)}{whose}; give {what}.")
+        return found
 
     def _known(self, argument: str, names: Sequence[str]) -> None:
         for name in names:

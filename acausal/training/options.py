@@ -241,7 +241,7 @@ class FitOptions:
             name that replace the measured ones; others are found. By record: ``{"run 1": "data", "run 2": {...}}``.
             ``"fit"``: found by the training, for the record and, tied by continuity, for each of the sequences, which
             then lie side by side (multiple shooting). No state need be measured. Discrete variables that events
-            remember begin as given or measured; truth values, with "auto" and "fit", as the first samples tell.
+            remember begin as given or measured; truth values, with "auto" and "fit", as the first samples show.
         dtype: precision of the integration, float64 or float32; weights, losses and the optimizer stay in double.
         devices: which share the sequences of every batch, such as ``jax.devices()``; ``batch_size`` is a
             multiple of their number. By default JAX's default device alone.

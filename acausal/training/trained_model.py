@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from acausal.errors import TrainingError, known_name, need_whole
 from acausal.training.history import History
@@ -266,13 +266,14 @@ def out_of_range(record: RecordFit, model: TrainedModel) -> str:
 def _unlike(record: RecordFit, model: TrainedModel) -> Iterator[str]:
     """Which arguments of networks are together what they were not in training: by their sums and differences."""
     for name, seen in model.arguments.items():
-        now, spread = record.arguments.get(name, seen), seen.std(axis=0)
-        if not (np.isfinite(seen).all() and np.isfinite(now).all()):
+        calls, counts, spread = record.arguments.get(name), _counting(record), seen.std(axis=0)
+        if calls is None or not (np.isfinite(seen).all() and np.isfinite(calls).all()):
             continue
+        now = calls.reshape(len(counts), -1, calls.shape[1])[counts].reshape(-1, calls.shape[1])
         then, now = (
             (a - seen.mean(axis=0)) / np.where(spread > 0, spread, 1.0) for a in (seen, now)
         )
-        margin = OUTSIDE * np.ptp(then, axis=0)
+        margin = 2 * OUTSIDE * np.ptp(then, axis=0)
         for i, j in combinations(range(seen.shape[1]), 2):
             for sign in (1, -1):
                 known, values = (a[:, i] + sign * a[:, j] for a in (then, now))
@@ -285,10 +286,15 @@ def _unlike(record: RecordFit, model: TrainedModel) -> Iterator[str]:
                     break
 
 
+def _counting(record: RecordFit) -> Bool[np.ndarray, " n"]:
+    """Where some target is measured; everywhere if none is."""
+    counts = np.atleast_1d(np.isfinite(record.measured).any(axis=1))
+    return counts if counts.any() else np.ones_like(counts)
+
+
 def _measured(record: RecordFit) -> dict[str, Float[np.ndarray, " m"]]:
     """Inputs, targets and arguments of networks, by name, where some target is measured; everywhere if none is."""
-    counts = np.atleast_1d(np.isfinite(record.measured).any(axis=1))
-    counts = counts if counts.any() else np.ones_like(counts)
+    counts = _counting(record)
     columns = {
         **record.inputs,
         **{n: record.measured[:, i] for i, n in enumerate(record.targets)},

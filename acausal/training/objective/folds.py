@@ -125,6 +125,6 @@ def judged_on(
     if fold.record:
         starts = first_states(problem.system, data, of_others(x0, data), trained=False)
         begun = problem.first_states
-        starts = replace(starts, discrete=begun.discrete, told=begun.told)
+        starts = replace(starts, discrete=begun.discrete, shown=begun.shown)
         judged = replace(judged, first_states=starts, start_prior=None, shooting=None)
     return judged

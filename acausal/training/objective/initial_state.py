@@ -39,20 +39,20 @@ class FirstStates(eqx.Module):
         given: states that do not depend on parameters; NaN for others.
         kinds: those that occur.
         discrete: what discrete variables begin with, NaN for those that begin as the model starts; None if all do.
-        told: which of these values the first samples have told.
+        shown: which of these values the first samples have shown; None if ``discrete`` is.
     """
 
     kind: Int[Array, " R"]
     given: Float[Array, "R n_states"]
     kinds: tuple[int, ...] = eqx.field(static=True)
     discrete: Float[Array, "R n_discrete"] | None = None
-    told: Bool[Array, "R n_discrete"] | None = None
+    shown: Bool[Array, "R n_discrete"] | None = None
 
     def from_model(self) -> FirstStates:
         """The same with the model's start in the place of states that are trained."""
         kind = jnp.where(self.kind == FIT, MODEL, self.kind)
         kinds = tuple(sorted({*self.kinds, MODEL} - {FIT}))
-        return FirstStates(kind, self.given, kinds, self.discrete, self.told)
+        return FirstStates(kind, self.given, kinds, self.discrete, self.shown)
 
     def discrete_starts(
         self, system: System, packed: Packed
@@ -125,8 +125,9 @@ def first_states(
         for d, of in zip(data.values(), by_record(data, x0), strict=True)
     ]
     kinds, states, discrete = zip(*starts, strict=True)
-    modes = None if np.isnan(discrete).all() else array(discrete)
-    return FirstStates(array(kinds, int), array(states), tuple(sorted({*kinds})), modes)
+    modes, shown = array(discrete), jnp.zeros((len(data), len(system.reduced.discrete)), bool)
+    modes, shown = (None, None) if np.isnan(discrete).all() else (modes, shown)
+    return FirstStates(array(kinds, int), array(states), tuple(sorted({*kinds})), modes, shown)
 
 
 def differs(records: Iterable[str], x0: InitialState) -> TypeGuard[Mapping[str, OfRecord]]:
@@ -168,23 +169,33 @@ def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
     return [own[n] for n in records]
 
 
+def _measured_modes(system: System, data: Data) -> Float[np.ndarray, " n_discrete"]:
+    """The first values of the discrete variables that events remember; NaN for what is not measured, or not whole."""
+    found, kinds = np.full(len(system.reduced.discrete), np.nan), system.wholes
+    for name in system.remembered:
+        if name in data.signals:
+            place, sign = system.discrete[name]
+            value, kind = float(data[name][0]), kinds.get(name)
+            whole = kind is None or value in (0.0, 1.0) or (kind == "int" and value.is_integer())
+            found[place] = sign * value if whole else np.nan
+    return found
+
+
 def _start(
     system: System, data: Data, x0: OfRecord, *, trained: bool
 ) -> tuple[int, Float[np.ndarray, " n_states"], Float[np.ndarray, " n_discrete"]]:
     """How a record starts, and what is known of its states and discrete variables without parameters; NaN elsewhere."""
-    first = {
-        n: float(data[n][0]) for n in (*system.states, *system.remembered) if n in data.signals
-    }
-    measured = np.array([first.get(n, np.nan) for n in system.states], float)
-    discrete = np.full(len(system.reduced.discrete), np.nan)
+    measured = np.array([data[n][0] if n in data.signals else np.nan for n in system.states], float)
+    discrete = _measured_modes(system, data)
     if isinstance(x0, str) and x0 not in ("data", "auto"):
         if x0 not in KINDS:
             raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, KINDS)}")
         if x0 == "fit" and not trained:
             return MODEL, measured, discrete
+        if x0 != "fit":
+            discrete[:] = np.nan
         return KINDS.index(x0), np.full(len(system.states), np.nan), discrete
     given, modes = system.initializer.given({} if isinstance(x0, str) else x0)
-    modes = {system.discrete[n][0]: v for n, v in first.items() if n in system.discrete} | modes
     discrete[[*modes]] = [*modes.values()]
     for name, value in given.items():
         if not is_number(value):

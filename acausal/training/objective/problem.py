@@ -226,6 +226,7 @@ class Problem(Simulator):
             return self._loss_of_all(packed, trainable, jax.tree.map(_first, batch))[None]
         records, shooting, sensors = self.records, self.shooting, self.sensors
         parts = None if shooting is None else self.part_states(trainable, packed)
+        modes = self.discrete_starts(packed)
 
         def one(row: Batch) -> Float[Array, ""]:
             start, read = row.start, row.read
@@ -238,7 +239,11 @@ class Problem(Simulator):
             x0 = x0 if row.nudge is None else x0 + row.nudge
             own = self.packed_of(packed, window.of)
             steps = records.delayed(window.steps, window.of, packed.times)
-            found = self.integrate_from(own, x0, steps)
+            begun = None
+            if modes is not None:  # those within a record begin as the model does
+                usual: Any = self.system.initializer.discrete_starts(own)
+                begun = jnp.where(start == records.first[window.of], modes[window.of], usual)[None]
+            found = self.integrate_from(own, x0, steps, discrete=begun)
             assert found.y is not None
             seen, weight = sensors.over_window(found.y, window, records, start, packed.times)
             loss = self.compare_some(*row.compared(seen, window.y, weight))

@@ -124,6 +124,10 @@ class Simulator(eqx.Module):
         trained = self.shooting.of_first(trainable.states)
         return jnp.where((self.first_states.kind == FIT)[:, None], trained, states)
 
+    def discrete_starts(self, packed: PackedRecords) -> Float[Array, "R n_discrete"] | None:
+        """What discrete variables begin with in each record; None if all begin as the model starts."""
+        return self.first_states.discrete_starts(self.system, self._by_record(packed))
+
     def _by_record(self, packed: PackedRecords) -> Packed:
         """Parameters with a row for each record."""
         return for_records(packed.common, self.per_record.places, packed.own, self.records.count)
@@ -153,7 +157,7 @@ class Simulator(eqx.Module):
         x0 = self.start_states(trainable, packed)
         x0 = x0 if nudge is None else x0 + nudge
         own, steps = packed.own, self.steps(packed)
-        discrete = self.first_states.discrete_starts(self.system, self._by_record(packed))
+        discrete = self.discrete_starts(packed)
         if records.count == 1:
             one = self.packed_of(packed, jnp.asarray(0))
             found = self.integrate_from(one, x0[0], steps, discrete=discrete)

@@ -8,21 +8,29 @@ from itertools import product
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
 from acausal.data import Data
-from acausal.training.objective.initial_state import InitialState, by_record
+from acausal.training.objective.initial_state import (
+    FirstStates,
+    InitialState,
+    by_record,
+    first_states,
+)
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 
 MOST = 3
-"""Of more truth values not all combinations are tried: each costs a simulation."""
+"""Where more truth values are open none is tried: each combination costs a simulation."""
 
 FEWEST, PART = 12, 0.1
 """A record's first samples: at least so many, or this part of them."""
 
 BETTER = 0.5
-"""A combination is taken if it leaves less than this part of the squares that the model's own start leaves."""
+"""Other values are taken if they leave less than this part of the squares that the model's own start leaves."""
+
+ALIKE = 1e-6
+"""Values that leave fewer squares by less than this part are no better than others that change less."""
 
 
 def with_start_modes(
@@ -31,44 +39,68 @@ def with_start_modes(
     """The same problem with the truth values that events remember as the first samples of each record have them.
 
     Those that are measured or given stay, and those of records that start exactly as measured or as the model does.
+    Records of a stream begin as the model does.
     """
-    system, first = problem.system, problem.first_states
+    system, own = problem.system, problem.first_states
     kinds = system.wholes
     places = {system.discrete[n][0] for n in system.remembered if kinds.get(n) == "bool"}
-    shape = len(first.kind), len(system.reduced.discrete)
-    given = np.full(shape, np.nan) if first.discrete is None else np.asarray(first.discrete)
+    if problem.streamed is not None or not places:
+        return problem
+    shape = len(own.kind), len(system.reduced.discrete)
+    given = np.full(shape, np.nan) if own.discrete is None else np.asarray(own.discrete)
     is_open = np.isnan(given)
     is_open[[of in ("model", "steady", "data") for of in by_record(data, x0)]] = False
+    rows = _first_rows(problem)
+    weight = np.asarray(problem.records.weight)
+    is_open[[not weight[of_record].any() for of_record in rows]] = False
     free = sorted(place for place in places if is_open[:, place].any())
-    if problem.streamed is not None or not 0 < len(free) <= MOST:
+    if not 0 < len(free) <= MOST:
         return problem
 
-    def starting(discrete: Float[np.ndarray, "R n_discrete"]) -> Problem:
-        return replace(problem, first_states=replace(first, discrete=jnp.asarray(discrete)))
+    # states as measured, or as the model starts: what a training finds is not known yet
+    measured = first_states(system, data, x0, trained=False)
+    alone = replace(problem, start_prior=None, shooting=None)
+    begun = replace(trainable, starts=None, states=None)
 
+    def squares(discrete: Float[np.ndarray, "R n_discrete"]) -> Float[np.ndarray, " R"]:
+        states = _beginning(measured, discrete)
+        return _squares(replace(alone, first_states=states), begun, rows)
+
+    packed = alone.pack(alone.assemble(begun), begun)
+    states = _beginning(measured, np.full(shape, np.nan))
+    usual = np.asarray(replace(alone, first_states=states).discrete_starts(packed))
     best = given.copy()
-    least = BETTER * _first_squares(starting(given), trainable)
-    for values in product((0.0, 1.0), repeat=len(free)):
-        tried = given.copy()
-        tried[:, free] = np.where(is_open[:, free], values, given[:, free])
-        squares = _first_squares(starting(tried), trainable)
-        better = squares < least
-        best[better], least[better] = tried[better], squares[better]
+    least = BETTER * squares(given)
+    flips = sorted(product((False, True), repeat=len(free)), key=sum)
+    for flip in flips[1:]:
+        tried, which = given.copy(), np.zeros(shape, bool)
+        which[:, free] = np.asarray(flip) & is_open[:, free]
+        tried[which] = 1 - usual[which]
+        left = squares(tried)
+        better = left < least * (1 - ALIKE)
+        best[better], least[better] = tried[better], left[better]
     found = is_open & np.isfinite(best)
-    if not found.any():
-        return problem
-    chosen = starting(best)
-    return replace(chosen, first_states=replace(chosen.first_states, told=jnp.asarray(found)))
+    return replace(problem, first_states=replace(_beginning(own, best), shown=jnp.asarray(found)))
 
 
-def _first_squares(problem: Problem, trainable: Trainable) -> Float[np.ndarray, " R"]:
-    """The weighted squares of each record's errors over its first samples."""
+def _beginning(first: FirstStates, discrete: Float[np.ndarray, "R n_discrete"]) -> FirstStates:
+    values = jnp.asarray(discrete)
+    return replace(first, discrete=values, shown=jnp.zeros(values.shape, bool))
+
+
+def _first_rows(problem: Problem) -> list[Int[np.ndarray, " m"]]:
+    """The rows of each record's first samples."""
+    records = problem.records
+    every = (np.arange(len(records))[records.rows_of(k)] for k in range(records.count))
+    return [rows[: max(FEWEST, int(PART * len(rows)))] for rows in every]
+
+
+def _squares(
+    problem: Problem, trainable: Trainable, rows: list[Int[np.ndarray, " m"]]
+) -> Float[np.ndarray, " R"]:
+    """The squares of each record's errors in some rows."""
     records = problem.records
     y: Array = problem.simulate(trainable).y
-    errors = np.where(
-        np.asarray(records.weight) > 0,
-        np.nan_to_num(np.asarray((y - records.y) / records.sigma), nan=np.inf),
-        0.0,
-    )
-    rows = [np.arange(len(errors))[records.rows_of(k)] for k in range(records.count)]
-    return np.array([np.sum(errors[r[: max(FEWEST, int(PART * len(r)))]] ** 2) for r in rows])
+    errors = np.nan_to_num(np.asarray((y - records.y) / records.sigma), nan=np.inf)
+    errors = np.where(np.asarray(records.weight) > 0, errors, 0.0)
+    return np.array([np.sum(errors[of_record] ** 2) for of_record in rows])

@@ -36,23 +36,22 @@ def found_starts(problem: Problem, records: slice = slice(None)) -> str:
 
 
 def _modes(problem: Problem, records: slice) -> Iterator[str]:
-    """Clauses on the discrete variables that begin as the model starts, or as first samples have told."""
+    """Clauses on the discrete variables that begin as the model starts, or as first samples show."""
     first, system = problem.first_states, problem.system
     count = len(np.asarray(first.kind)[records])
     begins = np.full((count, len(system.reduced.discrete)), np.nan)
-    told = np.zeros(begins.shape, bool)
-    if first.discrete is not None:
-        begins = np.asarray(first.discrete)[records]
-        told = told if first.told is None else np.asarray(first.told)[records]
+    shown = np.zeros(begins.shape, bool)
+    if first.discrete is not None and first.shown is not None:
+        begins, shown = (np.asarray(a)[records] for a in (first.discrete, first.shown))
     as_model = list[str]()
     for name in system.remembered:
         place, _ = system.discrete[name]
-        values = np.unique(begins[told[:, place], place]).tolist()
+        values = np.unique(begins[shown[:, place], place]).tolist()
         for value in values:
             which = (
                 f" in {np.sum(begins[:, place] == value)} of {count} records" if count > 1 else ""
             )
-            yield f"'{name}' begins with {value:g}{which}, as first samples tell"
+            yield f"'{name}' begins with {value:g}{which}, as first samples show"
         if not values and np.isnan(begins[:, place]).any():
             as_model.append(name)
     if as_model:

@@ -349,12 +349,12 @@ def _beside_laws(
     columns[len(effects) : len(effects) + len(earlier), :known] = earlier[:, change.parameters]
     columns[: len(effects), known:] = np.stack([*own.values()], axis=1) if own else 0.0
     left = columns - able @ np.linalg.lstsq(able, columns, rcond=None)[0]
-    covariance = np.linalg.inv(left.T @ left + np.eye(len(names)))
     by_number = change.heights * np.linalg.lstsq(able[:, :n], columns, rcond=None)[0].T
-    size, directions = np.linalg.eigh(covariance)
-    unknown = np.sqrt(np.diag(covariance))
-    bumps = (covariance / unknown[:, None]) @ by_number
-    moves = (directions * np.sqrt(size)).T @ by_number
+    _, size, directions = np.linalg.svd(left, full_matrices=False)
+    roots = directions / np.hypot(1, size)[:, None]
+    unknown = np.linalg.norm(roots, axis=0)
+    moves = roots @ by_number
+    bumps = (roots.T @ moves) / unknown[:, None]
     return _Beside(
         dict(zip(names, unknown.tolist(), strict=True)), dict(zip(names, bumps, strict=True)), moves
     )
