@@ -94,6 +94,22 @@ def test_a_copied_system_computes_the_same(make, again):
     assert str(other.equations) == str(system.equations)
 
 
+class Counter(ac.Component):
+    """Counts the instants of a clock, from the value before each."""
+
+    n = ac.Discrete(0, kind="int")
+
+    def equations(self) -> Any:
+        yield ac.When(ac.sample(0.5, 1.0), ac.Eq(self.n, ac.pre(self.n) + 1))
+
+
+@pytest.mark.parametrize("again", COPIES)
+def test_a_copied_system_knows_values_before_events(again):
+    system = again(ac.compile(Counter()))
+    assert ac.simulate(system, 3.0, saveat=[0.0, 3.0])["n"].tolist() == [0, 3]
+    assert ac.compile(again(system.model)).remembered == ("n",)
+
+
 def test_a_copied_system_with_a_sparse_loop(monkeypatch):
     monkeypatch.setattr(blocks, "LARGE", 4)
     monkeypatch.setattr(blocks, "WRITTEN", 4)

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from acausal.errors import DataError, ExportError, ModelError, need_compiled, shown
-from acausal.flattening import changed
 from acausal.system import System
 
 
@@ -31,12 +30,18 @@ def need_unchanged(system: System, function: str) -> None:
     Raises:
         ModelError: that names what has changed.
     """
-    name = changed(system.model, system.flat)
-    if name is not None:
+    then, now = system.flat.said, system.model._node.said()
+    kept = {n for n in then if n in now and (then[n] is now[n] or _equal(then[n], now[n]))}
+    for name in sorted({*then, *now} - kept)[:1]:
         raise ModelError(
             f"export.{function}: '{name}' was changed after the model was compiled, so the system is another model; "
             "compile it again: system = ac.compile(model)"
         )
+
+
+def _equal(a: Any, b: Any) -> bool:
+    """Whether two numbers or texts are the same, such as those of a copy."""
+    return type(a) is type(b) and isinstance(a, int | float | str) and a == b
 
 
 def all_parameters(system: System, params: Mapping[str, Any] | None) -> dict[str, Any]:

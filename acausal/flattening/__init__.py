@@ -6,7 +6,6 @@ It knows declarations; neither JAX nor any later stage.
 
 from acausal.flattening.analysis_points import opened as opened
 from acausal.flattening.bindings import Binding as Binding, binding_levels as binding_levels
-from acausal.flattening.changes import changed as changed
 from acausal.flattening.connections import unconnected as unconnected
 from acausal.flattening.equation_group import (
     AssertionGroup as AssertionGroup,

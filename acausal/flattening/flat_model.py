@@ -49,6 +49,7 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
         outputs: output signals that nothing in the model takes.
         silent: by dotted name, parameters that act through conditions alone that are not events, and how.
         unseen: by component, a condition that is no event, where values jump.
+        said: what was said of the components when they were read (`Node.said`): they can be modified at any time.
     """
 
     name: str
@@ -61,6 +62,7 @@ class FlatModel(VariableAttributes, ParameterValues, LeavesCaches):
     module_values: tuple[Callable[..., Any] | int, ...]
     silent: Mapping[str, Silent]
     unseen: Mapping[str, Silent]
+    said: Mapping[str, Any]
     given: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     outputs: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
@@ -174,6 +176,7 @@ def _flat(model: Component, watch: bool) -> FlatModel:
         module_values=module_values(layout),
         silent=_silent(layout, statements, of_parameters=True),
         unseen=_silent(layout, statements, of_parameters=False),
+        said=model._node.said(),
         outputs=model_outputs(layout, sets),
     )
 

@@ -44,6 +44,9 @@ class Previous(Compared):
         symbol.reference = reference
         return symbol
 
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        return Previous, (self.reference,)
+
     def has_whole_values(self) -> bool:
         """Whether those of the variable are."""
         return self.reference.has_whole_values()
@@ -70,6 +73,9 @@ class Tick(sp.Symbol):
         symbol = super().__new__(cls, f"sample({start}, {period})#{','.join(of)}", real=True)
         symbol.start, symbol.period = start, period
         return symbol
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        return Tick, (self.start, self.period)
 
     def _sympystr(self, printer: Any) -> str:
         return f"sample({printer._print(self.start)}, {printer._print(self.period)})"

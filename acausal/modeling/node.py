@@ -66,6 +66,17 @@ class Node(Generic[C]):
     bindings: list[Eq] = field(default_factory=list)
     placement: Placement | None = None
 
+    def said(self, path: str = "") -> dict[str, Any]:
+        """What was said of the component and its parts, by dotted name: another object where it was said anew."""
+        dot = f"{path}." if path else ""
+        every = (self.options, self.modifiers, self.constants, self.early_modifiers, self.children)
+        found = {f"{dot}{name}": value for one in every for name, value in one.items()}
+        found[path or self.label] = len(self.connections)
+        for name, part in self.children.items():
+            node: Node[Any] = cast(Any, part)._node
+            found |= node.said(f"{dot}{name}")
+        return found
+
     # -- place in the tree -----------------------------------------------------------------------
 
     def ancestors(self) -> Iterator[Node[C]]:

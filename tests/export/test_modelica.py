@@ -3,8 +3,9 @@
 import copy
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import jax
 import numpy as np
@@ -388,3 +389,33 @@ def test_a_model_that_was_changed_after_it_was_compiled_is_refused(
     with pytest.raises(ac.ModelError, match=rf"'{name}' was changed after .* compile it again"):
         ac.export.modelica(system, tmp_path / "osc.mo")
     assert (tmp_path / "osc.mo").read_text() == before
+
+
+class Looked(ac.Component):
+    """A table of the library, and a limit that is an option."""
+
+    most = ac.Option(10)
+
+    def __init__(self, **modifiers: Any) -> None:
+        super().__init__(**modifiers)
+        self.clock = blocks.ContinuousClock()
+        self.lut = blocks.CombiTable1Ds(table=[[0, 0], [1, 2]])
+        self.connect(self.clock.y, self.lut.u)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Assert(self.lut.y[0] < self.most, "too far")
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [("lut.table", {"lut": {"table": [[0, 0], [1, 3]]}}), ("most", {"most": 2})],
+)
+def test_so_is_one_whose_table_or_option_was(
+    name: str, change: dict[str, Any], tmp_path: Path
+) -> None:
+    model = Looked()
+    system = ac.compile(model)
+    ac.export.modelica(copy.deepcopy(system), tmp_path / "looked.mo")
+    model.modify(**change)
+    with pytest.raises(ac.ModelError, match=f"'{name}' was changed"):
+        ac.export.modelica(system, tmp_path / "looked.mo")
