@@ -32,10 +32,10 @@ def need_unchanged(system: System, function: str) -> None:
     """
     then, now = system.flat.said, system.model._node.said()
     kept = {n for n in then if n in now and (then[n] is now[n] or _equal(then[n], now[n]))}
-    for name in sorted({*then, *now} - kept)[:1]:
+    if changed := sorted({*then, *now} - kept):
         raise ModelError(
-            f"export.{function}: '{name}' was changed after the model was compiled, so the system is another model; "
-            "compile it again: system = ac.compile(model)"
+            f"export.{function}: '{changed[0]}' was changed after the model was compiled, so the system is another "
+            "model; compile it again: system = ac.compile(model)"
         )
 
 

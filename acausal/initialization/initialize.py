@@ -31,7 +31,7 @@ from acausal.initialization.solve import (
     InitializationSolver,
     InitialStates,
 )
-from acausal.modeling import ByName, by_element, by_name, names_in
+from acausal.modeling import ByName, by_element, by_name, is_of_kind, names_in
 from acausal.structure import ReducedModel
 
 INDEPENDENT = 1e-9
@@ -338,10 +338,7 @@ class Initializer(LeavesCaches):
         index = layout.find_variable(known[node])
         declared = None if index is None else layout.variable_declaration(index)
         kind = getattr(declared, "kind", "real")
-        if kind == "real" or traced(found):
-            return found
-        allowed = (0.0, 1.0) if kind == "bool" else (round(float(found)),)
-        if float(found) not in allowed:
+        if not traced(found) and not is_of_kind(float(found), kind):
             what = "True or False" if kind == "bool" else "a whole number"
             whose = "" if name == known[node] else f", so that '{known[node]}' is {float(found):g}"
             raise DataError(f"x0: '{name}' is {shown(value)}{whose}; give {what}.")

@@ -39,6 +39,7 @@ from acausal.modeling.declarations import (
     element_name as element_name,
     element_names as element_names,
     in_tuples as in_tuples,
+    is_of_kind as is_of_kind,
 )
 from acausal.modeling.documentation import (
     declarations_of as declarations_of,

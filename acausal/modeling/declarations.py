@@ -21,6 +21,13 @@ TearSelect = Literal["never", "avoid", "default", "prefer", "always"]
 TEAR_SELECT: tuple[TearSelect, ...] = ("never", "avoid", "default", "prefer", "always")
 Kind = Literal["real", "bool", "int"]
 KINDS: tuple[Kind, ...] = ("real", "bool", "int")
+
+
+def is_of_kind(value: float, kind: str) -> bool:
+    """Whether a number is one that a variable of this kind may have."""
+    return kind == "real" or (value in (0.0, 1.0) if kind == "bool" else value.is_integer())
+
+
 DeclaredShape = int | str | tuple[int | str, ...] | None
 
 

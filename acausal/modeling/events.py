@@ -220,9 +220,7 @@ def change(variable: Any) -> Any:
     if is_array(variable):
         return elementwise(change, variable)
     before = pre(variable)
-    if (
-        variable.has_whole_values()
-    ):  # so that it can be watched, too: a signal may change between events
+    if variable.has_whole_values():  # so that it can be watched: a signal may change between events
         return sp.Ge(sp.Abs(variable - before), HALF)
     return sp.Ne(variable, before)
 

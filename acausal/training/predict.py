@@ -252,7 +252,7 @@ def _own(fit: TrainedModel, some: _Some) -> Own:
     numbers = tuple(map(str, range(problem.records.count)))
     problem = replace(problem, records=replace(problem.records, names=numbers))
     trainable = problem.over_other_records(fit.trained)
-    problem = with_start_modes(problem, trainable, records, x0)
+    problem = with_start_modes(problem, trainable, records, x0, trained=True)
     laid, names = problem.records, problem.per_record.names
     measured = np.isfinite(laid.measured)
     has = np.array([measured[laid.rows_of(k)].any() for k in range(laid.count)])

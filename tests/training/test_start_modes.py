@@ -131,3 +131,29 @@ def test_another_name_of_a_mode_is_it():
     ):
         with pytest.raises(ac.DataError, match=message):
             ac.simulate(system, 1.0, x0=wrong)
+
+
+class Fanned(ac.Component):
+    """A warm body that a fan cools from above 60 to below 40."""
+
+    C, G = ac.Parameter(50.0, min=0), ac.Parameter(1.0, min=0)
+    T = ac.Variable(start=25.0)
+    fan = ac.Discrete(0, kind="bool")
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(self.C * ac.der(self.T), 80 - self.G * (1 + 2 * self.fan) * (self.T - 20))
+        off = ac.When(self.T < 40, ac.Eq(self.fan, 0))
+        yield ac.When(self.T > 60, ac.Eq(self.fan, 1), otherwise=off)
+
+
+def test_a_parameter_that_is_off_is_not_taken_for_a_mode():
+    """The body warms more slowly than the model says, as it would with the fan; with the fan on it cools instead."""
+    t, data = np.linspace(0, 30, 31), {}
+    for name, T, factor in (("cold", 25.0, 1), ("fan", 52.0, 3)):
+        rest = 20 + 80 / (1.3 * factor)
+        data[name] = ac.Data(t, {"T": rest + (T - rest) * np.exp(-1.3 * factor / 65 * t)})
+    system, options = ac.compile(Fanned()), FitOptions(modifiers=["C", "G"], solver="rk4")
+    begun = build_problem(system, data, ("T",), system.parameters(), options).first_states
+    assert begun.discrete is not None
+    place, _ = system.discrete["fan"]
+    assert np.asarray(begun.discrete)[:, place].tolist() == pytest.approx([np.nan, 1], nan_ok=True)

@@ -245,16 +245,15 @@ def _held(fit: TrainedModel) -> Iterator[Cause]:
     begins = np.asarray(problem.records.begins)
     before = None
     for name, own in columns.items():
-        i = list(problem.system.inputs).index(name) if name in problem.system.inputs else None
-        if i is None or own.sum() > 1:
+        i, *others = np.flatnonzero(own).tolist()
+        if others or problem.system.inputs[i] != name:  # what the model differentiates is smooth
             continue
         held = _from_knots(start[:, i], end[:, i], begins)
         if held is None:
             continue
         before = problem.predict(trainable, params) if before is None else before
-        new = with_held(problem, i, jnp.asarray(held))
-        effect = new.predict(trainable, params) - before
-        yield Held((name,), np.asarray(effect), MOST_HELD)
+        after = with_held(problem, i, jnp.asarray(held)).predict(trainable, params)
+        yield Held((name,), np.asarray(after - before), MOST_HELD)
 
 
 def _from_knots(

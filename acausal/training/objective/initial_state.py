@@ -16,6 +16,7 @@ from acausal._jax import array, is_number, traced
 from acausal.codegen import Packed, Values
 from acausal.data import Data
 from acausal.errors import DataError, known_name, listing, nearest, shown
+from acausal.modeling import is_of_kind
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -171,13 +172,12 @@ def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
 
 def _measured_modes(system: System, data: Data) -> Float[np.ndarray, " n_discrete"]:
     """The first values of the discrete variables that events remember; NaN for what is not measured, or not whole."""
-    found, kinds = np.full(len(system.reduced.discrete), np.nan), system.wholes
+    found = np.full(len(system.reduced.discrete), np.nan)
     for name in system.remembered:
         if name in data.signals:
             place, sign = system.discrete[name]
-            value, kind = float(data[name][0]), kinds.get(name)
-            whole = kind is None or value in (0.0, 1.0) or (kind == "int" and value.is_integer())
-            found[place] = sign * value if whole else np.nan
+            value, kind = float(data[name][0]), system.wholes.get(name, "real")
+            found[place] = sign * value if is_of_kind(value, kind) else np.nan
     return found
 
 

@@ -8,7 +8,7 @@ from itertools import product
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int
+from jaxtyping import Float, Int
 
 from acausal.data import Data
 from acausal.training.objective.initial_state import (
@@ -34,12 +34,18 @@ ALIKE = 1e-6
 
 
 def with_start_modes(
-    problem: Problem, trainable: Trainable, data: Mapping[str, Data], x0: InitialState
+    problem: Problem,
+    trainable: Trainable,
+    data: Mapping[str, Data],
+    x0: InitialState,
+    *,
+    trained: bool = False,
 ) -> Problem:
     """The same problem with the truth values that events remember as the first samples of each record have them.
 
     Those that are measured or given stay, and those of records that start exactly as measured or as the model does.
-    Records of a stream begin as the model does.
+    Records of a stream begin as the model does. Parameters that are not ``trained`` may be off by as much as a mode
+    changes: then the model's own start is left only where it explains less than that nothing moves, and others more.
     """
     system, own = problem.system, problem.first_states
     kinds = system.wholes
@@ -64,13 +70,18 @@ def with_start_modes(
 
     def squares(discrete: Float[np.ndarray, "R n_discrete"]) -> Float[np.ndarray, " R"]:
         states = _beginning(measured, discrete)
-        return _squares(replace(alone, first_states=states), begun, rows)
+        y = replace(alone, first_states=states).simulate(begun).y
+        return _squares(problem, np.asarray(y), rows)
 
     packed = alone.pack(alone.assemble(begun), begun)
     states = _beginning(measured, np.full(shape, np.nan))
     usual = np.asarray(replace(alone, first_states=states).discrete_starts(packed))
     best = given.copy()
-    least = BETTER * squares(given)
+    own_squares = squares(given)
+    least = BETTER * own_squares
+    if not trained:
+        still = _squares(problem, _at_rest(problem, rows), rows)
+        least = np.where(own_squares > still, np.minimum(least, still), 0.0)
     flips = sorted(product((False, True), repeat=len(free)), key=sum)
     for flip in flips[1:]:
         tried, which = given.copy(), np.zeros(shape, bool)
@@ -95,12 +106,22 @@ def _first_rows(problem: Problem) -> list[Int[np.ndarray, " m"]]:
     return [rows[: max(FEWEST, int(PART * len(rows)))] for rows in every]
 
 
+def _at_rest(
+    problem: Problem, rows: list[Int[np.ndarray, " m"]]
+) -> Float[np.ndarray, "N n_targets"]:
+    """Each target as it is measured first in each record."""
+    y, counts = np.array(problem.records.y), np.asarray(problem.records.weight) > 0
+    for of_record in rows:
+        first = of_record[np.argmax(counts[of_record], axis=0)]
+        y[of_record] = y[first, np.arange(y.shape[1])]
+    return y
+
+
 def _squares(
-    problem: Problem, trainable: Trainable, rows: list[Int[np.ndarray, " m"]]
+    problem: Problem, y: Float[np.ndarray, "N n_targets"], rows: list[Int[np.ndarray, " m"]]
 ) -> Float[np.ndarray, " R"]:
-    """The squares of each record's errors in some rows."""
+    """The squares of each record's errors in some rows, for what targets are predicted to be."""
     records = problem.records
-    y: Array = problem.simulate(trainable).y
-    errors = np.nan_to_num(np.asarray((y - records.y) / records.sigma), nan=np.inf)
+    errors = np.nan_to_num((y - np.asarray(records.y)) / np.asarray(records.sigma), nan=np.inf)
     errors = np.where(np.asarray(records.weight) > 0, errors, 0.0)
     return np.array([np.sum(errors[of_record] ** 2) for of_record in rows])
