@@ -151,3 +151,13 @@ def test_the_sample_for_other_versions_is_there() -> None:
     names = re.findall(r'"(tests/\S+\.py)"', (ROOT / ".ci" / "dependencies.py").read_text("utf-8"))
     assert len(names) > 20
     assert [name for name in names if not (ROOT / name).is_file()] == []
+
+
+def test_what_is_built_is_not_in_the_repository() -> None:
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    if listed.returncode:
+        pytest.skip("there is no git history")
+    built = {".fmu", ".so", ".dll", ".o", ".onnx", ".npz", ".pkl", ".whl", ".zip"}
+    assert [name for name in listed.stdout.split("\0") if Path(name).suffix in built] == []

@@ -13,6 +13,7 @@ REASONS = (
     r"the (reference trajectories|published examples) lie .*in \.\./shared/oracles",
     r"the measured data.* are (not here|absent)",
     r"there is no .*\.fmu: unpack those of gemseo-fmu .* there, or set ACAUSAL_FMUS",
+    r"there is no git history",
     # programs that are no Python packages
     r"There is no chromium: pages are not tried in a browser\.",
     r"no chromium is installed",
