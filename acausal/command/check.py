@@ -7,7 +7,7 @@ from pathlib import Path
 
 import acausal as ac
 from acausal.command.arguments import Parsers, add_command, add_model, add_parameters
-from acausal.command.model import parameters_of, system_of, title_of
+from acausal.command.model import networks_and_tables, parameters_of, system_of, title_of
 from acausal.command.output import CommandOutput
 
 
@@ -46,8 +46,9 @@ def run(args: Namespace, out: CommandOutput) -> int:
 def _check(text: str, args: Namespace, out: CommandOutput) -> None:
     """Compile a model and find its initial values."""
     system = system_of(args, text)
-    start = system.initialize(parameters_of(args, system))
-    networks = system.layout.module_names
+    params = parameters_of(args, system)
+    start = system.initialize(params)
+    networks, tables = networks_and_tables(system, params)
     counts = {
         "equation": system.flat.n_equations,
         "state": len(system.states),
@@ -55,6 +56,7 @@ def _check(text: str, args: Namespace, out: CommandOutput) -> None:
         "parameter": len(system.layout.names),
         "network": len(networks),
     }
+    counts |= {"table": len(tables)} if tables else {}
     events = system.events is not None
     listed = ", ".join(f"{n} {what}" if n == 1 else f"{n} {what}s" for what, n in counts.items())
     out.say(f"{title_of(system)} is right: {listed}" + ", events" * events)
@@ -71,7 +73,8 @@ def _check(text: str, args: Namespace, out: CommandOutput) -> None:
             "states": list(system.states),
             "inputs": list(system.inputs),
             "parameters": list(system.layout.names),
-            "networks": list(networks),
+            "networks": networks,
+            "tables": tables,
             "events": events,
             "unconnected": list(system.unconnected),
             "open_starts": [name for name, role in roles if role in ("chosen", "start")],

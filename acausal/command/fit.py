@@ -153,17 +153,17 @@ def read_options(path: str) -> dict[str, Any]:
     """The options of a JSON or TOML file.
 
     Raises:
-        ac.TrainingError: for a file that cannot be read, or that is neither.
+        ac.DataError: for a file that cannot be read, or that is neither.
     """
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
         options = tomllib.loads(text) if Path(path).suffix == ".toml" else json.loads(text)
     except OSError as error:
-        raise ac.TrainingError(f"'{path}' cannot be read: {reason(error)}.") from None
+        raise ac.DataError(f"'{path}' cannot be read: {reason(error)}.") from None
     except (ValueError, RecursionError) as error:  # neither JSON, TOML nor UTF-8
-        raise ac.TrainingError(f"'{path}' cannot be read: {error}.") from None
+        raise ac.DataError(f"'{path}' cannot be read: {error}.") from None
     if not isinstance(options, dict):
-        raise ac.TrainingError(f"'{path}' holds {shown(options)}; options are an object by name.")
+        raise ac.DataError(f"'{path}' holds {shown(options)}; options are an object by name.")
     return cast(dict[str, Any], options)
 
 

@@ -67,6 +67,16 @@ def parameters_of(args: Namespace, system: ac.System) -> dict[str, Any]:
     return params
 
 
+def networks_and_tables(
+    system: ac.System, params: dict[str, Any]
+) -> tuple[list[str], list[str]]:
+    """Names of the functions among the parameters: those that can be trained, and tables and others that are given."""
+    from acausal.networks import networks
+
+    names, trainable = system.layout.module_names, networks(params)
+    return [n for n in names if n in trainable], [n for n in names if n not in trainable]
+
+
 def _part(name: str, libraries: list[str]) -> ac.Component:
     """A part by its class: ``neural.Resistance``, a name of Modelica's, or ``module:Class``."""
     from acausal.netlist import Library, installed  # help starts without it

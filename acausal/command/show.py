@@ -8,7 +8,7 @@ from typing import Any
 
 import acausal as ac
 from acausal.command.arguments import Parsers, add_command, add_model, add_parameters
-from acausal.command.model import parameters_of, system_of, title_of
+from acausal.command.model import networks_and_tables, parameters_of, system_of, title_of
 from acausal.command.output import CommandOutput, number
 from acausal.errors import shown
 
@@ -94,7 +94,13 @@ def _parameters(system: ac.System, params: dict[str, Any]) -> list[Row]:
 
 
 def _networks(system: ac.System, params: dict[str, Any]) -> list[Row]:
-    return [{"name": n, "network": shown(params[n], 100)} for n in system.layout.module_names]
+    names, _ = networks_and_tables(system, params)
+    return [{"name": name, "network": shown(params[name], 100)} for name in names]
+
+
+def _tables(system: ac.System, params: dict[str, Any]) -> list[Row]:
+    _, names = networks_and_tables(system, params)
+    return [{"name": name, "table": shown(params[name], 100)} for name in names]
 
 
 def _equations(system: ac.System, params: dict[str, Any]) -> list[Row]:
@@ -112,6 +118,7 @@ SECTIONS: dict[str, Callable[[ac.System, dict[str, Any]], list[Row]]] = {
     "inputs": lambda system, _: _with_units(system, system.inputs),
     "parameters": _parameters,
     "networks": _networks,
+    "tables": _tables,
     "discrete": lambda system, _: [{"name": name} for name in system.discrete],
     "equations": _equations,
     "variables": lambda system, _: _with_units(system, system.variables),

@@ -9,7 +9,7 @@ import diffrax as dfx
 import equinox as eqx
 import numpy as np
 
-from acausal.errors import SimulationError, nearest, shown
+from acausal.errors import DataError, nearest, shown
 
 
 class BDF(eqx.Module):
@@ -78,27 +78,27 @@ def solver_named(solver: str | Solver, *, fixed: bool = False, events: bool = Fa
         events: whether the model has events, which end the steps.
 
     Raises:
-        SimulationError: for an unknown name, or anything that is not a solver of ordinary differential equations.
+        DataError: for an unknown name, or anything that is not a solver of ordinary differential equations.
     """
     if isinstance(solver, str) and solver == "stiff":
         solver = "kvaerno3" if fixed else "kvaerno5" if events else "bdf"
     if isinstance(solver, str):
         if solver not in SOLVERS:
             known = (*SOLVERS, "auto", "stiff")
-            raise SimulationError(f"No solver '{solver}': {nearest(solver, known)}")
+            raise DataError(f"No solver '{solver}': {nearest(solver, known)}")
         return SOLVERS[solver]()
     if isinstance(solver, type) and issubclass(solver, dfx.AbstractSolver | BDF):
-        raise SimulationError(f"solver={solver.__name__} is a class: call it, {solver.__name__}().")
+        raise DataError(f"solver={solver.__name__} is a class: call it, {solver.__name__}().")
     if isinstance(solver, BDF):
         return solver
     if not isinstance(solver, dfx.AbstractSolver):
-        raise SimulationError(
+        raise DataError(
             f"solver={shown(solver)} is not a solver; choose one of {', '.join(SOLVERS)}, "
             "or a diffrax solver such as diffrax.Tsit5()."
         )
     if solver.term_structure is not dfx.AbstractTerm:
         name = type(solver).__name__
-        raise SimulationError(
+        raise DataError(
             f"{name} is not for ordinary differential equations as a whole; choose one of {', '.join(SOLVERS)}."
         )
     return solver
@@ -113,13 +113,13 @@ def for_adaptive_steps(solver: Solver) -> Solver:
     """The solver, if it can choose its steps.
 
     Raises:
-        SimulationError: for a solver without an error estimate.
+        DataError: for a solver without an error estimate.
     """
     if isinstance(solver, BDF):
         return solver
     if isinstance(solver, RK4) or not isinstance(solver, dfx.AbstractAdaptiveSolver):
         name = type(solver).__name__
-        raise SimulationError(
+        raise DataError(
             f"{name} has no error estimate: give dt for fixed steps, or choose solver='tsit5'."
         )
     return solver
@@ -129,11 +129,11 @@ def for_fixed_steps(solver: Solver) -> Scheme:
     """The solver, if it can make fixed steps.
 
     Raises:
-        SimulationError: for a solver that is not a Runge–Kutta scheme.
+        DataError: for a solver that is not a Runge–Kutta scheme.
     """
     if isinstance(solver, dfx.Euler | dfx.ImplicitEuler | dfx.AbstractRungeKutta):
         return solver
     name = type(solver).__name__
-    raise SimulationError(
+    raise DataError(
         f"{name} is not a one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
     )

@@ -393,32 +393,32 @@ def test_what_a_variable_was_computed_with_is_not_computed_again():
         ),
         (
             {"inputs": NO_FORCE, "solver": "tsit6"},
-            ac.SimulationError,
+            ac.DataError,
             "No solver 'tsit6': did you mean 'tsit5'?",
         ),
         (
             {"inputs": NO_FORCE, "solver": RK4()},
-            ac.SimulationError,
+            ac.DataError,
             "RK4 has no error estimate: give dt for fixed steps, or choose solver='tsit5'.",
         ),
         (
             {"inputs": NO_FORCE, "dt": 0.1, "solver": diffrax.LeapfrogMidpoint()},
-            ac.SimulationError,
+            ac.DataError,
             f"LeapfrogMidpoint is not a one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}.",
         ),
         (
             {"inputs": NO_FORCE, "solver": "euler"},
-            ac.SimulationError,
+            ac.DataError,
             "Euler has no error estimate: give dt for fixed steps, or choose solver='tsit5'.",
         ),
         (
             {"inputs": NO_FORCE, "solver": diffrax.Tsit5},
-            ac.SimulationError,
+            ac.DataError,
             "solver=Tsit5 is a class: call it, Tsit5().",
         ),
         (
             {"inputs": NO_FORCE, "solver": None},
-            ac.SimulationError,
+            ac.DataError,
             (
                 f"solver=None is not a solver; choose one of {', '.join(SOLVERS)}, "
                 "or a diffrax solver such as diffrax.Tsit5()."

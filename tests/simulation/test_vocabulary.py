@@ -142,7 +142,7 @@ def test_stiff_is_a_solver() -> None:
     with_events = ac.simulate(ac.compile(Ball()), 0.5, solver="stiff")
     assert with_events.statistics is not None
     assert "Kvaerno5" in with_events.statistics.solver
-    with pytest.raises(ac.SimulationError, match="did you mean 'stiff'"):
+    with pytest.raises(ac.DataError, match="did you mean 'stiff'"):
         ac.simulate(plain(), 1.0, inputs=inputs, solver="stif")
 
 

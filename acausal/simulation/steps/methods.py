@@ -41,7 +41,7 @@ def method_of(solver: solvers.Solver, problem: Integration) -> Method:
     """The method by which a solver's steps are made.
 
     Raises:
-        SimulationError: for a solver without an error estimate.
+        DataError: for a solver without an error estimate.
     """
     solver, jacobian = solvers.for_adaptive_steps(solver), problem.field.system.state_jacobian
     if isinstance(solver, solvers.BDF):

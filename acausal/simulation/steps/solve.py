@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float, PyTree
 
 from acausal._jax import array, compile_ahead, compiled, either, known, two_modes
-from acausal.errors import SimulationError
+from acausal.errors import DataError
 from acausal.simulation.log import Log
 from acausal.simulation.solvers import Solver
 from acausal.simulation.steps.loop import EXHAUSTED, STIFF, LoopResult, LoopStart, search
@@ -53,14 +53,14 @@ def first_run(
         d: discrete variables at the start. log: the empty log of the run. Both None without events.
 
     Raises:
-        SimulationError: for a solver that knows more than the state at a step's start, if there are events.
+        DataError: for a solver that knows more than the state at a step's start, if there are events.
     """
     start = LoopStart(problem.begin, problem.x, array(0, int), d, log)
     if solver is None:
         return FirstRun(explicit(), replace(problem, until_stiff=True), start)
     method = solver if isinstance(solver, OneStep) else method_of(solver, problem)
     if problem.events is not None and not isinstance(method, OneStep):
-        raise SimulationError(
+        raise DataError(
             f"solver {method.name} goes on from steps before an event, which ends them all; choose 'auto', or "
             "'kvaerno5' for stiff models with events"
         )

@@ -340,7 +340,7 @@ def test_a_ball_that_bounces_for_ever_is_stopped_and_named(steps: Any) -> None:
 
 
 def test_a_solver_that_looks_back_is_refused() -> None:
-    with pytest.raises(ac.SimulationError, match="kvaerno5"):
+    with pytest.raises(ac.DataError, match="kvaerno5"):
         ac.simulate(ac.compile(Ball()), (0.0, 1.0), solver="bdf")
 
 
