@@ -109,7 +109,8 @@ def build_problem(
     if streamed is None:
         sequences = cut(records, *how, tiled=shooting, lacking=lacking)
     else:
-        records = replace(records, sigma=jnp.asarray(streamed.sigma))
+        sigma = jnp.asarray(streamed.sigma)
+        records = replace(records, sigma=sigma, scale=sigma)
         sequences = streamed.cut(*how, lacking)
     problem = Problem(
         system=system,

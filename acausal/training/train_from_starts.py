@@ -7,7 +7,7 @@ for each part of the samples that is left out.
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
@@ -17,8 +17,9 @@ import numpy as np
 
 from acausal.errors import DataError, TrainingError, warn
 from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
-from acausal.training.auto.step_choice import StepChoice, finer_steps
-from acausal.training.auto.verdict import explains, step_error
+from acausal.training.auto.noise_scale import noise_scale
+from acausal.training.auto.step_choice import finer_steps
+from acausal.training.auto.verdict import DOWN_TO, explains, step_error
 from acausal.training.concerns import concerns
 from acausal.training.member import Trained
 from acausal.training.objective.losses import noise_loss
@@ -29,6 +30,9 @@ from acausal.training.result import Fit, result
 from acausal.training.starts import halving, starts_of
 from acausal.training.strategy import StageResult, segments, stage_results
 from acausal.training.train import begins, train_here, train_on_workers, train_together
+
+Change = Callable[[Problem], Problem]
+"""To another problem of the same records and the same things to train."""
 
 LOGGER = logging.getLogger(__name__)
 
@@ -76,17 +80,19 @@ def run(
         if one.failed is not None and not np.isfinite(one.best.loss):
             raise TrainingError(one.failed)
     errors = _step_errors(problems, trained)
-    if (step := _finer(training, problems, trained, errors)) is not None:
-        finer = _in_steps(training, step)
+    for choose, title in ((_finer, "finer steps"), (_by_noise, "targets by their noise")):
+        if (change := choose(training, problems, trained, errors)) is None:
+            continue
+        changed = _last_part(training, change, f"whole record, {title}")
         keys = [jax.random.key(seed) for seed in seeds]
         onward = [one.best.trainable for one in trained]
         none = halving(1, 0)
-        later = train_here(finer, onward, keys, lambda *_: None, None, none, trained[0])
+        later = train_here(changed, onward, keys, lambda *_: None, None, none, trained[0])
         if all(np.isfinite(one.best.loss) for one in later):
             trained = tuple(a.then(b, len(plan)) for a, b in zip(trained, later, strict=True))
-            training, plan = finer, (*plan, *finer.segments)
-            judged = None if judged is None else step.over(judged)
-            problems = [step.over(own) for own in problems]
+            training, plan = changed, (*plan, *changed.segments)
+            judged = None if judged is None else change(judged)
+            problems = [change(own) for own in problems]
             errors = _step_errors(problems, trained)
     for own, start, one in zip(problems, starts, trained, strict=True):
         LOGGER.info(
@@ -183,8 +189,8 @@ def _finer(
     problems: Sequence[Problem],
     trained: Sequence[Trained],
     errors: Sequence[float | None],
-) -> StepChoice | None:
-    """Finer steps, if those that were chosen err by more than they may, and the model is not too sensitive for any."""
+) -> Change | None:
+    """To finer steps, if those that were chosen err by more than they may, and the model is not too sensitive for any."""
     step = None if training.automatic is None else training.automatic.step
     if step is None or any(one.interrupted for one in trained):
         return None
@@ -195,18 +201,37 @@ def _finer(
         for own, one in zip(problems, trained, strict=True)
     ):
         return None
-    return finer
+    return finer.over
 
 
-def _in_steps(training: Training, step: StepChoice) -> Training:
-    """The last part of a training once more, in other steps."""
+def _by_noise(
+    training: Training,
+    problems: Sequence[Problem],
+    trained: Sequence[Trained],
+    errors: Sequence[float | None],
+) -> Change | None:
+    """To a loss that counts targets by their noise, if they are explained and it differs much among them."""
+    options, problem = training.options, problems[0]
+    told = options.sample_weights is not None or options.epochs is not None
+    if training.automatic is None or told or any(one.interrupted for one in trained):
+        return None
+    for own, one in zip(problems, trained, strict=True):
+        noise = noise_loss(own.records, one.simulated.y)
+        if not one.best.loss <= DOWN_TO * noise:
+            return None
+    error = max(e or 0.0 for e in errors)
+    scale = noise_scale(problem, [one.simulated.y for one in trained], error)
+    return None if scale is None else lambda of: of.scaled(scale)
+
+
+def _last_part(training: Training, change: Change, title: str) -> Training:
+    """The last part of a training once more, over a changed problem."""
     assert training.automatic is not None
-    last = training.automatic.stages[-1]
-    stage = last._replace(title="whole record, finer steps", above=0.0)
-    problem, held = step.over(training.problem), training.held
+    stage = training.automatic.stages[-1]._replace(title=title, above=0.0)
+    problem, held = change(training.problem), training.held
     return replace(
         training,
         problem=problem,
-        held=None if held is None else step.over(held),
+        held=None if held is None else change(held),
         segments=segments(problem, (stage,), training.options),
     )

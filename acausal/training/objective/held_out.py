@@ -171,7 +171,9 @@ def over(
     records = problem.weighting.apply(records)
     other = replace(
         problem,
-        records=replace(records, sigma=problem.records.sigma, known=False),
+        records=replace(
+            records, sigma=problem.records.sigma, scale=problem.records.scale, known=False
+        ),
         sequences=whole_records(records),
         first_states=starts,
         start_prior=None,

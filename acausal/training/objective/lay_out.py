@@ -99,13 +99,13 @@ def lay_out(
     empty = [n for n, column in zip(targets, missing.T, strict=True) if column.all()]
     if empty and measured:
         raise DataError(f"Target '{empty[0]}' has no samples in the data.")
+    sigma = array(np.ones(len(targets)) if empty else np.std(y, axis=0, where=~missing))
     records = Records(
         steps=steps,
         y=array(np.where(missing, 0.0, y)),
         weight=array(np.where(missing, 0.0, 1.0)),
-        sigma=array(np.std(y, axis=0, where=~missing))
-        if not empty
-        else array(np.ones(len(targets))),
+        sigma=sigma,
+        scale=sigma,
         x=None if np.isnan(x).any(axis=1).all() else array(x),
         of=array(np.repeat(np.arange(len(rows)), counts), int),
         first=array(ends - counts, int),

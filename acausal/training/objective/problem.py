@@ -9,6 +9,7 @@ from typing import Any
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax.sharding import Mesh
 from jaxtyping import Array, Float, Int, PRNGKeyArray
 
@@ -87,7 +88,11 @@ class Problem(Simulator):
         weight: Float[Array, "M n_targets"],
     ) -> Float[Array, ""]:
         """The loss of predictions of some samples."""
-        return number("The loss", self.loss, predicted, measured, self.records.sigma, weight)
+        return number("The loss", self.loss, predicted, measured, self.records.scale, weight)
+
+    def scaled(self, scale: Float[np.ndarray, " n_targets"]) -> Problem:
+        """The same with other deviations by which the loss counts the targets; its program is that of this one."""
+        return replace(self, records=replace(self.records, scale=jnp.asarray(scale)))
 
     @property
     def counts_as_logarithm(self) -> bool:

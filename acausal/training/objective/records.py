@@ -76,7 +76,8 @@ class Records(eqx.Module):
         steps: N steps with the inputs.
         y: targets; zero where they are not measured.
         weight: how much each counts; zero where it is not measured.
-        sigma: standard deviations of the targets over all records.
+        sigma: standard deviations of the targets over all records; ``scale``: the deviations by which the loss counts them,
+            which are the same, or in proportion to their noise.
         x: states where all of them are measured, else NaN; ``None`` where that is never so. Where the training chooses
             its stages, speeds that no record has are the rates of positions without most of their noise.
         of: the record of every row.
@@ -91,6 +92,7 @@ class Records(eqx.Module):
     y: Float[Array, "N n_targets"]
     weight: Float[Array, "N n_targets"]
     sigma: Float[Array, " n_targets"]
+    scale: Float[Array, " n_targets"]
     x: Float[Array, "N n_states"] | None
     of: Int[Array, " N"]
     first: Int[Array, " R"]
