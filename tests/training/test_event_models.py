@@ -12,6 +12,8 @@ import pytest
 import acausal as ac
 from acausal.components import electrical as el
 from acausal.networks import Law as Network, law_of
+from acausal.training.build_problem import build_problem
+from acausal.training.options import FitOptions
 from tests.support.hybrid import Ball
 from tests.support.hybrid_training import (
     Convection,
@@ -184,3 +186,27 @@ def test_a_tick_at_a_jump_reads_what_is_behind_it_in_each_of_several_records(per
     found = np.asarray(fit.problem.simulate(fit.problem.start()).y)[:, 0]
     exact = np.concatenate([r.signals["x"] for r in records.values()])
     np.testing.assert_allclose(found, exact, atol=1e-12)
+
+
+class Sampled(ac.Component):
+    """A lag behind a sample-and-hold of its input."""
+
+    T, tau = ac.Parameter(0.2), ac.Parameter(0.5, min=0)
+    r, x, u = ac.Input(), ac.Variable(start=0.0), ac.Discrete(0.0)
+
+    def equations(self) -> Any:
+        yield ac.Eq(self.tau * ac.der(self.x), self.u - self.x)
+        yield ac.When(ac.sample(0, self.T), ac.Eq(self.u, self.r))
+
+
+def test_an_input_that_jumps_as_it_is_sampled_is_read_alike_by_derivatives() -> None:
+    """At 10 s both instants differ by rounding; forward mode read the input before it jumped."""
+    system, t = ac.compile(Sampled()), np.arange(0, 15, 0.05)
+    r = np.repeat([1.0, -0.5, 0.7], 100)
+    record = ac.Data(t, {"r": r, "x": np.sin(t)}, interpolation={"r": "previous"})
+    options = FitOptions(strategy="gauss_newton", modifiers=["tau"])
+    problem = build_problem(system, {"": record}, ("x",), system.parameters(), options)
+    start = problem.start()
+    simulated = problem.simulate(start)
+    assert (np.asarray(simulated.d) == r[:, None]).all(axis=0).any(), "what is held is what was given"
+    assert np.allclose(problem.predict(start, problem.assemble(start)), simulated.y, atol=1e-12)

@@ -198,12 +198,11 @@ def advance(
         if c.events is not None:
             seen = between_events.look_within(method, aim.held, c.events, made, c.t, aim.h, stop)
             ok, stop = seen.ok, seen.stop
-        row = Row(
-            c.t, lax.stop_gradient(aim.h), stop.kind, stop.which, c.next, c.ahead, made.x, made.row
-        )
+        t = jnp.where(ok, jnp.where(aim.to_stop, stop.t, c.t + aim.h), c.t)
+        h, end = lax.stop_gradient((aim.h, t))
+        row = Row(c.t, h, end, stop.kind, stop.which, c.next, c.ahead, made.x, made.row)
         begins = RESTART if seen is not None else EDGE
         happens = ok & (stop.kind >= begins) & runs
-        t = jnp.where(ok, jnp.where(aim.to_stop, stop.t, c.t + aim.h), c.t)
         if c.events is not None:
             instant = between_events.instant(problem, c.events, t)
             row = row._replace(x=c.x, d=c.events.d, band=stop.band, instant=instant)
@@ -360,7 +359,7 @@ def row_like(method: Any, problem: Integration, progress: LoopState) -> Row:
     made = eqx.filter_eval_shape(method.attempt, problem.held(p.d), p.memory, p.t, p.memory.h)
     band = None if problem.events is None else jnp.zeros(problem.events.n_guards, p.t.dtype)
     instant = None if band is None else p.t
-    return Row(p.t, p.t, p.next, p.next, p.next, p.ahead, p.x, made.row, p.d, band, instant)
+    return Row(p.t, p.t, p.t, p.next, p.next, p.next, p.ahead, p.x, made.row, p.d, band, instant)
 
 
 def _kinds(problem: Integration) -> Int[Array, " n_breaks_1"]:

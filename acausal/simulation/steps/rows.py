@@ -27,7 +27,9 @@ class Row(NamedTuple):
     """A step.
 
     Attributes:
-        t, h: its start and length. kind: how it ends. which: the number of the stop, or of the condition.
+        t, h: its start and length. end: where it ends, which may differ from ``t + h`` by rounding, and only the former is
+            on that side of a jump on which it was found. kind: how it ends. which: the number of the stop, or of the
+            condition.
         next: the first of the times to save that does not lie in it, nor in one before.
         ahead: the first of the known times at which steps end that lies behind its start.
         x: the state at its end; with events, which may change it there, that at its start.
@@ -38,6 +40,7 @@ class Row(NamedTuple):
 
     t: Float[Array, ""]
     h: Float[Array, ""]
+    end: Float[Array, ""]
     kind: Int[Array, ""]
     which: Int[Array, ""]
     next: Int[Array, ""]
@@ -133,7 +136,8 @@ def reach(
     end, dense = jax.tree.map(
         lambda v, rate: v + lax.stop_gradient(rate) * moved, (end, dense), by_h
     )
-    return Reach(jnp.where(row.kind <= JUMP, stop, t + h), end, h, dense)
+    time = jnp.where(row.kind <= JUMP, stop, t + h)
+    return Reach(row.end + (time - lax.stop_gradient(time)), end, h, dense)
 
 
 def moved_by(
