@@ -37,7 +37,7 @@ from acausal.simulation.inputs import (
 )
 from acausal.simulation.result_checks import check_result, warn_of_few_points
 from acausal.simulation.run import Run
-from acausal.simulation.small_states import ATOL, with_small_states
+from acausal.simulation.small_states import ATOL, sizes_at_start, with_small_states
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import step_ends
 from acausal.simulation.steps import InSteps, Tolerance, check_tolerances
@@ -106,8 +106,9 @@ def simulate(
         rtol: relative tolerance of an adaptive step, one for all or an array with one each; 0 leaves ``atol`` alone.
             By default 1e-6, and 1e-5 in single precision, where less is below rounding.
         atol: absolute tolerance of an adaptive step, in the states' units, above 0, one for all or an array; by default
-            1e-8, and where all states of a unit stay below 1e-4, 1e-8 of the largest: then the simulation is made
-            again. Where JAX traces it, as in `jax.jit` and `jax.grad`, that cannot be seen: give ``atol`` there.
+            1e-8. Where all states of a unit stay below 1e-4 it is 1e-8 of the largest, and where the model or ``x0``
+            says that a state begins below 1e-4, but not at zero, 1e-8 of that: then the simulation is made again. Where
+            JAX traces it, as in `jax.jit` and `jax.grad`, that cannot be seen: give ``atol`` there.
         max_steps: limit of adaptive steps. Each edge of a source, and each jump or kink of an input, allows eight more.
         max_step: the longest adaptive step, in seconds; by default a fiftieth of the span, ``inf`` for none. Steps end
             where sources and tables jump or bend, take at most an eighth of the period of a sine of time, and are
@@ -188,7 +189,11 @@ def simulate(
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
         solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
     elif atol is None and ends is None:
-        solution = with_small_states(lambda a: replace(in_steps, atol=a).simulate(run), n_states)
+        solution = with_small_states(
+            lambda a: replace(in_steps, atol=a).simulate(run),
+            n_states,
+            lambda _: sizes_at_start(system, packed, x0, values.x),
+        )
     else:
         solution = in_steps.simulate(run)
     if saveat is None and ends is None:

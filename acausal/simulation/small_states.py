@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Array, Float
 
 from acausal._jax import known
+from acausal.codegen import Packed
 from acausal.errors import SimulationError, listing, warn
 from acausal.simulation.solution import Solution
+
+if TYPE_CHECKING:
+    from acausal.system import System
 
 ATOL = 1e-8
 """The usual absolute tolerance, in the states' units."""
@@ -24,12 +29,18 @@ Simulated = Callable[[Float[np.ndarray, " n_states"]], Solution]
 """A simulation, by the absolute tolerances of its states."""
 
 
-def with_small_states(simulated: Simulated, n_states: int) -> Solution:
-    """One simulation, or several, with the usual tolerances; where all states of a unit stay small, with finer ones."""
+def with_small_states(
+    simulated: Simulated, n_states: int, begun: Callable[[Solution], Float[np.ndarray, " n_states"]]
+) -> Solution:
+    """One simulation, or several, with the usual tolerances; where states stay small or begin so, with finer ones.
+
+    All states of a unit stay small together: beside a large one of their unit, what is small may be rounding. ``begun``
+    gives the sizes of states that were said to begin small, as of `sizes_at_start`.
+    """
     atol = np.full(n_states, ATOL)
     solution = simulated(atol)
     for _ in range(AGAIN):
-        finer = _finer(solution)
+        finer = np.minimum(_finer(solution), ATOL * begun(solution))
         if (finer > 0.1 * atol).all():
             break
         small = [n for n, f, a in zip(solution.system.states, finer, atol, strict=True) if f < a]
@@ -42,6 +53,29 @@ def with_small_states(simulated: Simulated, n_states: int) -> Solution:
             )
             break
     return solution
+
+
+def sizes_at_start(
+    system: System, packed: Packed, x0: Any, x: Float[Array, "*variants n_states"] | None
+) -> Float[np.ndarray, " n_states"]:
+    """The sizes of states that begin small where the model or ``x0`` says; 1 for others, and in a trace.
+
+    A start that was found by equations may be small by rounding.
+    """
+    begun = None if x is None else known(x)
+    if begun is None:
+        return np.ones(len(system.states))
+    size = np.abs(np.asarray(begun, float))
+    small = (size > NOISE) & (size < SMALL)
+    if not small.any():
+        return np.ones(len(system.states))
+    declared = known(system.initializer.conditions.starts(packed))
+    given = np.zeros(size.shape, bool) if declared is None else begun == np.asarray(declared)
+    if isinstance(x0, Mapping):
+        given |= np.isin(system.states, [*system.initializer.by_state(x0)])
+    elif x0 is not None and not isinstance(x0, str):
+        given = np.ones(size.shape, bool)
+    return np.where(small & given, size, 1.0).reshape(-1, len(system.states)).min(axis=0)
 
 
 def _finer(solution: Solution) -> Float[np.ndarray, " n_states"]:

@@ -30,7 +30,7 @@ from acausal.errors import (
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import ByName, by_name, names_in, names_matching
 from acausal.simulation.simulate import simulate
-from acausal.simulation.small_states import with_small_states
+from acausal.simulation.small_states import sizes_at_start, with_small_states
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import in_bytes, memory
 
@@ -244,7 +244,14 @@ def sweep(
         return make(_Shared(system, t, roles, common, {**options, **finer}), columns)
 
     if options.get("dt") is None and options.get("atol") is None:
-        runs = with_small_states(lambda atol: made(atol=atol), len(system.states))
+        begins, varied = options.get("saveat") is None, common["x0"]
+        runs = with_small_states(
+            lambda atol: made(atol=atol),
+            len(system.states),
+            lambda found: sizes_at_start(
+                system, system.pack(None), varied, found.x[:, 0] if begins else None
+            ),
+        )
     else:
         runs = made()
     _warn_of_broken(runs, columns)

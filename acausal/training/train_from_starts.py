@@ -16,8 +16,8 @@ import jax
 import numpy as np
 
 from acausal.errors import DataError, TrainingError, warn
-from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
 from acausal.training.auto.noise_scale import noise_scale
+from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
 from acausal.training.auto.step_choice import finer_steps
 from acausal.training.auto.verdict import DOWN_TO, explains, step_error
 from acausal.training.concerns import concerns
@@ -190,7 +190,7 @@ def _finer(
     trained: Sequence[Trained],
     errors: Sequence[float | None],
 ) -> Change | None:
-    """To finer steps, if those that were chosen err by more than they may, and the model is not too sensitive for any."""
+    """To finer steps, if those that were chosen err by more than they may; no model too sensitive for any has them."""
     step = None if training.automatic is None else training.automatic.step
     if step is None or any(one.interrupted for one in trained):
         return None

@@ -208,5 +208,7 @@ def test_an_input_that_jumps_as_it_is_sampled_is_read_alike_by_derivatives() -> 
     problem = build_problem(system, {"": record}, ("x",), system.parameters(), options)
     start = problem.start()
     simulated = problem.simulate(start)
-    assert (np.asarray(simulated.d) == r[:, None]).all(axis=0).any(), "what is held is what was given"
+    assert (np.asarray(simulated.d) == r[:, None]).all(axis=0).any(), (
+        "what is held is what was given"
+    )
     assert np.allclose(problem.predict(start, problem.assemble(start)), simulated.y, atol=1e-12)

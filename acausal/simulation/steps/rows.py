@@ -27,9 +27,8 @@ class Row(NamedTuple):
     """A step.
 
     Attributes:
-        t, h: its start and length. end: where it ends, which may differ from ``t + h`` by rounding, and only the former is
-            on that side of a jump on which it was found. kind: how it ends. which: the number of the stop, or of the
-            condition.
+        t, h: its start and length. end: where it ends, which may differ from ``t + h`` by rounding and lie on the other
+            side of a jump. kind: how it ends. which: the number of the stop, or of the condition.
         next: the first of the times to save that does not lie in it, nor in one before.
         ahead: the first of the known times at which steps end that lies behind its start.
         x: the state at its end; with events, which may change it there, that at its start.
