@@ -13,7 +13,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Complex, Float, Inexact
 from scipy.linalg import expm, qr, solve_continuous_are
 
-from acausal._jax import array, check_time, compiled, is_real
+from acausal._jax import array, check_time, compiled, is_real, known
 from acausal.analysis.operating_point import OperatingPoint
 from acausal.analysis.tracking import numbers_by_name
 from acausal.codegen import Values
@@ -346,8 +346,8 @@ def _weights(
     given: Mapping[str, float], names: tuple[str, ...], argument: str, *, all_of_them: bool = False
 ) -> Float[np.ndarray, " n"]:
     """Numbers by name that are not negative; above zero where all are needed."""
-    known = numbers_by_name(given, names, argument, "in the linearization")
-    found = np.array([float(known.get(n, 0.0)) for n in names])
+    by_name = numbers_by_name(given, names, argument, "in the linearization")
+    found = np.array([float(by_name.get(n, 0.0)) for n in names])
     if all_of_them and not (len(names) and (found > 0).all()):
         lacking = next((n for n, v in zip(names, found, strict=True) if not v > 0), None)
         raise DataError(
@@ -436,6 +436,7 @@ def linearize(
 
     Raises:
         DataError: if ``x`` or ``inputs`` do not fit the model.
+        DataError: where the model or its derivatives are not finite.
         ModelError: for an output that the model does not have, and for a model that is not compiled.
     """
     need_compiled(system, "linearize")
@@ -444,6 +445,7 @@ def linearize(
     system.warn_of_sampled("linearize")
     at = at._replace(t=array(at.t))  # one program for all times
     (a, b), (c, d) = _matrices(system, outputs, at)
+    _need_finite(system, outputs, at, (a, b, c, d))
     n = system.reduced.n_independent
     if system.reduced.gaps:
         chosen, along = _independent(system, at)
@@ -453,6 +455,33 @@ def linearize(
     names = tuple(system.states[i] for i in chosen.tolist())
     x = at.x[chosen]
     return Linearization(a[chosen], b[chosen], c, d, names, system.inputs, outputs, x, at.u)
+
+
+def _need_finite(
+    system: System, outputs: tuple[str, ...], at: Values, matrices: tuple[Array, ...]
+) -> None:
+    """Refuse a point at which the model has no derivatives; in a trace nothing is known of them.
+
+    Raises:
+        DataError: that names the equation, or the derivative.
+    """
+    rows = [*(f"der({name})" for name in system.states), *outputs]
+    a, b, c, d = map(known, matrices)
+    if a is None or b is None or c is None or d is None:
+        return
+    all_of = np.vstack([np.hstack([a, b]), np.hstack([c, d])])
+    bad = np.argwhere(~np.isfinite(all_of))
+    if not len(bad):
+        return
+    if reason := system.explain_nonfinite(at) or (
+        system.explain_nonfinite(at, outputs) if outputs else None
+    ):
+        raise DataError(f"linearize: {reason}")
+    i, j = bad[0]
+    by = [*system.states, *system.inputs][j]
+    raise DataError(
+        f"linearize: the derivative of '{rows[i]}' by '{by}' is {all_of[i, j]} at this point; choose another (x=...)."
+    )
 
 
 def _independent(system: System, at: Values) -> tuple[np.ndarray, Array]:

@@ -300,3 +300,22 @@ def test_the_name_of_an_array_stands_for_its_elements() -> None:
 
     linear = ac.linearize(ac.compile(Two()), outputs=["x", "u"])
     assert linear.outputs == ("x[1]", "x[2]", "u")
+
+
+class Draining(ac.Component):
+    """A tank whose outlet gives no derivative where it is empty."""
+
+    area = ac.Parameter(2.0)
+    h = ac.Variable(start=0.0)
+
+    def equations(self):
+        yield ac.Eq(self.area * ac.der(self.h), -ac.sqrt(self.h))
+
+
+def test_a_point_without_derivatives_is_refused() -> None:
+    system = ac.compile(Draining())
+    assert np.isfinite(ac.linearize(system, {"h": 1.0}).A).all()
+    with pytest.raises(ac.DataError, match=r"derivative of 'der\(h\)' by 'h' is -inf .*x="):
+        ac.linearize(system)
+    with pytest.raises(ac.DataError, match=r"linearize: 'der\(h\)' = .* is -inf: a division by"):
+        ac.linearize(system, {"h": 1.0}, params={"area": 0.0})
