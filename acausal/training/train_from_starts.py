@@ -16,12 +16,13 @@ import jax
 import numpy as np
 
 from acausal.errors import DataError, TrainingError, warn
-from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
 from acausal.training.auto.noise_scale import noise_scale
+from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
 from acausal.training.auto.step_choice import finer_steps
-from acausal.training.auto.verdict import DOWN_TO, explains, step_error
+from acausal.training.auto.verdict import explains, step_error
 from acausal.training.concerns import concerns
 from acausal.training.member import Trained
+from acausal.training.objective.down_to_noise import down_to
 from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.options import FitOptions
@@ -217,7 +218,7 @@ def _by_noise(
         return None
     for own, one in zip(problems, trained, strict=True):
         noise = noise_loss(own.records, one.simulated.y)
-        if not one.best.loss <= DOWN_TO * noise:
+        if not one.best.loss <= down_to(own.records) * noise:
             return None
     error = max(e or 0.0 for e in errors)
     scale = noise_scale(problem, [one.simulated.y for one in trained], error)

@@ -14,6 +14,7 @@ from acausal.training.auto.likely_causes import likely_causes
 from acausal.training.auto.outliers import at_limits, outliers
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
 from acausal.training.auto.step_choice import allowed_error, difference
+from acausal.training.objective.down_to_noise import down_to
 from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
@@ -21,11 +22,8 @@ from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Band
 from acausal.training.uncertainty.residuals import unexplained
 
-DOWN_TO = 1.15
-"""A loss of up to so many times that of the noise is down to the noise,"""
-
 SMALL = 0.01
-"""and one of less than this part of the targets' deviation is small, whatever the noise."""
+"""A loss of less than this part of the targets' deviation is small, whatever the noise."""
 
 LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
 """A law is hardly determined if two of its standard deviations are more than this part of its range, or the second part
@@ -85,7 +83,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     noise, level = noise_loss(problem.records, simulated.y), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
-    down, good = fit.loss <= DOWN_TO * noise, explains(problem, fit.loss, noise)
+    down = fit.loss <= down_to(problem.records) * noise
+    good = explains(problem, fit.loss, noise)
     left = [] if fit.loss <= noise else list(_left(fit))
     if down:
         first = f"explains the record {'nearly ' * bool(left)}down to its noise."
@@ -153,7 +152,7 @@ def explains(problem: Problem, loss: float, noise: float) -> bool:
     if problem.loss is not LOSSES["nrmse"]:
         return True
     small = loss <= SMALL * np.sqrt(len(problem.targets))
-    return bool(np.isfinite(loss) and (loss <= DOWN_TO * noise or small))
+    return bool(np.isfinite(loss) and (small or loss <= down_to(problem.records) * noise))
 
 
 def _odd_records(fit: TrainedModel) -> Iterator[str]:
