@@ -809,7 +809,9 @@ class System(LeavesCaches):
                 Quantity(name, d.unit, value, d.doc)
                 for name, d, value in zip(self.layout.names, declared, values, strict=True)
             ],
-            "Networks and tables": [Quantity(name, "", None, "") for name in self.layout.module_names],
+            "Networks and tables": [
+                Quantity(name, "", None, "") for name in self.layout.module_names
+            ],
         }
         about = f"{self.flat.n_equations} equations, {len(self.states)} states"
         few = len(self.states) <= MOST_EQUATIONS

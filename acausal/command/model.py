@@ -67,9 +67,7 @@ def parameters_of(args: Namespace, system: ac.System) -> dict[str, Any]:
     return params
 
 
-def networks_and_tables(
-    system: ac.System, params: dict[str, Any]
-) -> tuple[list[str], list[str]]:
+def networks_and_tables(system: ac.System, params: dict[str, Any]) -> tuple[list[str], list[str]]:
     """Names of the functions among the parameters: those that can be trained, and tables and others that are given."""
     from acausal.networks import networks
 

@@ -191,7 +191,7 @@ def _finer(
     trained: Sequence[Trained],
     errors: Sequence[float | None],
 ) -> Change | None:
-    """To finer steps, if those that were chosen err by more than they may, and the model is not too sensitive for any."""
+    """To finer steps, if the chosen ones err by more than they may and the model is not too sensitive for any."""
     step = None if training.automatic is None else training.automatic.step
     if step is None or any(one.interrupted for one in trained):
         return None

@@ -1,7 +1,7 @@
 """By what the loss counts targets of unlike noise, once a model explains them: by that noise.
 
-Beside a target with much noise, the loss that counts each by its own deviation hardly sees what a target with little of it
-says: where a position is known to 0.2 % and an acceleration to 10 %, a mass came out 20 times as far off.
+Beside a target with much noise, the loss that counts each by its own deviation hardly sees what a target with little of
+it says: where a position is known to 0.2 % and an acceleration to 10 %, a mass came out 20 times as far off.
 """
 
 from __future__ import annotations

@@ -76,8 +76,8 @@ class Records(eqx.Module):
         steps: N steps with the inputs.
         y: targets; zero where they are not measured.
         weight: how much each counts; zero where it is not measured.
-        sigma: standard deviations of the targets over all records; ``scale``: the deviations by which the loss counts them,
-            which are the same, or in proportion to their noise.
+        sigma: standard deviations of the targets over all records; ``scale``: the deviations by which the loss counts
+            them, which are the same, or in proportion to their noise.
         x: states where all of them are measured, else NaN; ``None`` where that is never so. Where the training chooses
             its stages, speeds that no record has are the rates of positions without most of their noise.
         of: the record of every row.
