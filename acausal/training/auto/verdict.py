@@ -103,7 +103,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     good = good and not loose and (share <= SMALL or not left)
     suspect = list(outliers(problem, simulated))
     odd = () if good else _odd_records(fit)
-    others = [*odd, *suspect, *at_limits(problem, simulated), *loose, *left]
+    limited = list(at_limits(problem, simulated))
+    others = [*odd, *suspect, *limited, *loose, *left]
     if (
         not (down or share <= SMALL)
         and np.isfinite(fit.loss)
@@ -128,13 +129,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"{percent(OFF * times)}, so even a law that is nearly right may leave the whole record. Judge its "
             "laws over shorter parts (data.between)."
         )
-    elif not steps and not np.isfinite(fit.step_error or 0.0):
-        others.append("In steps of half the length the model diverges: take a smaller dt.")
-    elif not steps and fit.step_error is not None:
-        rk4 = "" if isinstance(problem.solver, RK4) else ", or solver='rk4'"
-        others.append(
-            f"Its steps err by {percent(fit.step_error / level)} of the targets: take a smaller dt{rk4}."
-        )
+    elif not (steps or limited):  # a law that follows the limit of a sensor is steep
+        others += _smaller_steps(fit)
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
     if fit.without_constant:
         others += _constants(fit)
@@ -245,6 +241,18 @@ def _doubt(fit: TrainedModel, name: str, band: Band) -> str | None:
         f"{name} is known to {percent(doubt[k])} of its range only near {band.x[k]:.3g} (two standard "
         f"deviations){', where it is steep' * bool(band.steep[k])}. Measure more there."
     )
+
+
+def _smaller_steps(fit: TrainedModel) -> Iterator[str]:
+    """What to do about steps that err by more than they may."""
+    if fit.step_error is None:
+        return
+    if not np.isfinite(fit.step_error):
+        yield "In steps of half the length the model diverges: take a smaller dt."
+        return
+    level = np.sqrt(len(fit.problem.targets))
+    rk4 = "" if isinstance(fit.problem.solver, RK4) else ", or solver='rk4'"
+    yield f"Its steps err by {percent(fit.step_error / level)} of the targets: take a smaller dt{rk4}."
 
 
 def _left(fit: TrainedModel) -> Iterator[str]:
