@@ -11,6 +11,7 @@ from acausal.errors import TrainingError, listing, percent
 from acausal.networks import OffsetCorrected
 from acausal.simulation import EXPLICIT, RK4
 from acausal.training.auto.likely_causes import likely_causes
+from acausal.training.auto.odd_records import odd_records
 from acausal.training.auto.outliers import at_limits, outliers
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
 from acausal.training.auto.step_choice import allowed_error, difference
@@ -20,7 +21,6 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Band
-from acausal.training.uncertainty.residuals import unexplained
 
 SMALL = 0.01
 """A loss of less than this part of the targets' deviation is small, whatever the noise."""
@@ -38,9 +38,6 @@ TOGETHER = 0.99
 
 FAR_START = 2.0
 """A start that is found further off than so many standard deviations of its prior contradicts it."""
-
-ODD = 1.4
-"""A record that leaves so many times what any other does is named."""
 
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
@@ -102,7 +99,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     loose = [*_all_taken(problem), *_far_starts(fit), *(_hardly_determined(fit) if good else ())]
     good = good and not loose and (share <= SMALL or not left)
     suspect = list(outliers(problem, simulated))
-    odd = () if good else _odd_records(fit)
+    odd = () if good else odd_records(fit)
     limited = list(at_limits(problem, simulated))
     others = [*odd, *suspect, *limited, *loose, *left]
     if (
@@ -149,28 +146,6 @@ def explains(problem: Problem, loss: float, noise: float) -> bool:
         return True
     small = loss <= SMALL * np.sqrt(len(problem.targets))
     return bool(np.isfinite(loss) and (small or loss <= down_to(problem.records) * noise))
-
-
-def _odd_records(fit: TrainedModel) -> Iterator[str]:
-    """A record that is explained far worse than the others."""
-    left: dict[str, float] = {}
-    for name, record in fit.records.items():
-        known = [
-            error / size for error, size in zip(record.rms.values(), record.sigma, strict=True)
-        ]
-        known = [share for share in known if np.isfinite(share)]
-        left |= {name: float(np.linalg.norm(known) / np.sqrt(len(known)))} if known else {}
-    if len(left) < 2:
-        return
-    *others, worst = sorted(left, key=left.__getitem__)
-    record = fit.records[worst]
-    columns = zip(record.errors.T, record.sigma.tolist(), strict=True)
-    beside_noise = [unexplained([c], size) for c, size in columns if np.isfinite(c).any()]
-    if left[worst] > ODD * left[others[-1]] > 0 and max(beside_noise) > left[worst] / 2:
-        yield (
-            f"Of '{worst}' it leaves {percent(left[worst])}, of each other record {percent(left[others[-1]])} at most: "
-            "look at that one first (a sign, a unit, another load)."
-        )
 
 
 def _all_taken(problem: Problem) -> Iterator[str]:
