@@ -95,14 +95,14 @@ def run(
             judged = None if judged is None else change(judged)
             problems = [change(own) for own in problems]
             errors = _step_errors(problems, trained)
-    for own, start, one in zip(problems, starts, trained, strict=True):
+    misread = [() if from_data is None else from_data.concerns(t.best.loss) for t in trained]
+    for own, start, one, said in zip(problems, starts, trained, misread, strict=True):
         LOGGER.info(
             "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
         )
         limited = one.interrupted or options.epochs is not None
         whole = options.automatic and options.sample_weights is None and not limited
-        misread = () if from_data is None else from_data.concerns(one.best.loss)
-        for sentence in (*concerns(own, start, one, whole=whole), *misread):
+        for sentence in (*concerns(own, start, one, whole=whole), *said):
             warn(f"{prefix}{sentence}")
     described = options.described()
     linear = None if from_data is None else from_data.linear
@@ -121,8 +121,11 @@ def run(
             without_constant=loose,
             not_laws=() if from_data is None else from_data.not_laws,
             pieces=0 if from_data is None else from_data.pieces,
+            misread=said,
         )
-        for own, one, seed, error in zip(problems, trained, seeds, errors, strict=True)
+        for own, one, seed, error, said in zip(
+            problems, trained, seeds, errors, misread, strict=True
+        )
     )
 
 

@@ -101,7 +101,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     suspect = list(outliers(problem, simulated))
     odd = () if good else odd_records(fit)
     limited = list(at_limits(problem, simulated))
-    others = [*odd, *suspect, *limited, *loose, *left]
+    others = [*fit.misread, *odd, *suspect, *limited, *loose, *left]
     if (
         not (down or share <= SMALL)
         and np.isfinite(fit.loss)
@@ -126,7 +126,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"{percent(OFF * times)}, so even a law that is nearly right may leave the whole record. Judge its "
             "laws over shorter parts (data.between)."
         )
-    elif not (steps or limited):  # a law that follows the limit of a sensor is steep
+    elif not (steps or limited or fit.misread):  # laws that follow what is wrong are steep
         others += _smaller_steps(fit)
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
     if fit.without_constant:
