@@ -14,6 +14,7 @@ from acausal.errors import listing, percent
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training.happened import grazing
 from acausal.training.member import Trained
+from acausal.training.objective.down_to_noise import down_to
 from acausal.training.objective.losses import LOSSES, noise_loss, nrmse
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
@@ -21,7 +22,7 @@ from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.uncertainty.confidence import BAD
 
 MUCH = 1.3
-"""Noise is allowed to be so many times as large as it seems."""
+"""Noise is allowed to be so many times as large as it seems, or more where few samples tell it."""
 
 EXACT = 1e-100
 """A loss at which a model follows its record to roundoff, so that nothing needs to change."""
@@ -105,7 +106,8 @@ def _unexplained(problem: Problem, simulated: Simulated, *, whole: bool) -> str 
             "over targets). Do not use it: train longer, by another strategy, or from better parameters (params=...) "
             "and scales (input_scale=, output_scale=)."
         )
-    if error**2 <= (MUCH * noise) ** 2 + (BAD * level) ** 2:
+    much = max(MUCH, down_to(records))
+    if error**2 <= (much * noise) ** 2 + (BAD * level) ** 2:
         return None
     return (
         f"The trained model does not explain the record: it leaves {percent(error / level)} of the targets, the noise "

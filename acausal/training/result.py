@@ -74,6 +74,8 @@ class Fit(TrainedModel):
             determines their constant.
         pieces: in how many pieces ``strategy="auto"`` followed the records, each from a start of its own, because the
             model is too sensitive to its start to follow them whole (chaotic, for instance); 0 where they are whole.
+        misread: a sentence on each input with which ``strategy="auto"`` would have left less by linear laws alone if it
+            had another sign or unit.
     """
 
     @cached_property
@@ -273,6 +275,7 @@ def result(
     not_laws: tuple[str, ...],
     without_constant: tuple[str, ...],
     pieces: int,
+    misread: tuple[str, ...],
 ) -> Fit:
     """The result of a training; arguments as the attributes of `Fit`."""
     best, history, held_out = trained.best, trained.history, dict[str, RecordFit]()
@@ -312,4 +315,5 @@ def result(
         not_laws=not_laws,
         without_constant=without_constant,
         pieces=pieces,
+        misread=misread,
     )

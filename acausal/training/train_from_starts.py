@@ -19,9 +19,10 @@ from acausal.errors import DataError, TrainingError, warn
 from acausal.training.auto.noise_scale import noise_scale
 from acausal.training.auto.sensitive import HALF, QUARTER, in_pieces, is_sensitive, length_of_pieces
 from acausal.training.auto.step_choice import finer_steps
-from acausal.training.auto.verdict import DOWN_TO, explains, step_error
+from acausal.training.auto.verdict import explains, step_error
 from acausal.training.concerns import concerns
 from acausal.training.member import Trained
+from acausal.training.objective.down_to_noise import down_to
 from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.options import FitOptions
@@ -80,7 +81,11 @@ def run(
         if one.failed is not None and not np.isfinite(one.best.loss):
             raise TrainingError(one.failed)
     errors = _step_errors(problems, trained)
-    for choose, title in ((_finer, "finer steps"), (_by_noise, "targets by their noise")):
+    misread = [() if from_data is None else from_data.concerns(t.best.loss) for t in trained]
+    further = (_finer, "finer steps"), (_by_noise, "targets by their noise")
+    if any(misread):  # no steps are fine enough for laws that follow what is wrong
+        further = ()
+    for choose, title in further:
         if (change := choose(training, problems, trained, errors)) is None:
             continue
         changed = _last_part(training, change, f"whole record, {title}")
@@ -94,14 +99,13 @@ def run(
             judged = None if judged is None else change(judged)
             problems = [change(own) for own in problems]
             errors = _step_errors(problems, trained)
-    for own, start, one in zip(problems, starts, trained, strict=True):
+    for own, start, one, said in zip(problems, starts, trained, misread, strict=True):
         LOGGER.info(
             "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
         )
         limited = one.interrupted or options.epochs is not None
         whole = options.automatic and options.sample_weights is None and not limited
-        misread = () if from_data is None else from_data.concerns(one.best.loss)
-        for sentence in (*concerns(own, start, one, whole=whole), *misread):
+        for sentence in (*concerns(own, start, one, whole=whole), *said):
             warn(f"{prefix}{sentence}")
     described = options.described()
     linear = None if from_data is None else from_data.linear
@@ -120,8 +124,11 @@ def run(
             without_constant=loose,
             not_laws=() if from_data is None else from_data.not_laws,
             pieces=0 if from_data is None else from_data.pieces,
+            misread=said,
         )
-        for own, one, seed, error in zip(problems, trained, seeds, errors, strict=True)
+        for own, one, seed, error, said in zip(
+            problems, trained, seeds, errors, misread, strict=True
+        )
     )
 
 
@@ -190,7 +197,7 @@ def _finer(
     trained: Sequence[Trained],
     errors: Sequence[float | None],
 ) -> Change | None:
-    """To finer steps, if those that were chosen err by more than they may; no model too sensitive for any has them."""
+    """To finer steps, if the chosen ones err by more than they may and the model is not too sensitive for any."""
     step = None if training.automatic is None else training.automatic.step
     if step is None or any(one.interrupted for one in trained):
         return None
@@ -217,7 +224,7 @@ def _by_noise(
         return None
     for own, one in zip(problems, trained, strict=True):
         noise = noise_loss(own.records, one.simulated.y)
-        if not one.best.loss <= DOWN_TO * noise:
+        if not one.best.loss <= down_to(own.records) * noise:
             return None
     error = max(e or 0.0 for e in errors)
     scale = noise_scale(problem, [one.simulated.y for one in trained], error)

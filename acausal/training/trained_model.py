@@ -82,6 +82,7 @@ class TrainedModel:
     not_laws: tuple[str, ...] = ()
     without_constant: tuple[str, ...] = ()
     pieces: int = 0
+    misread: tuple[str, ...] = ()
 
     @property
     def x0(self) -> dict[str, float]:

@@ -440,7 +440,9 @@ def test_a_fit_names_an_input_of_wrong_sign_or_unit(gain: float, what: str, chec
     wrong = ac.Data(right.time, {"push.f": gain * right["push.f"], "mass.v": right["mass.v"]})
     expected = f"If push.f {what}, linear laws alone would leave .*: check {check}"
     with pytest.warns(UserWarning, match=expected):
-        ac.fit(trained().system, wrong, "mass.v", progress=False)
+        fit = ac.fit(trained().system, wrong, "mass.v", progress=False)
+    assert re.search(expected, repr(fit))
+    assert "take a smaller dt" not in repr(fit)
 
 
 @pytest.mark.slow

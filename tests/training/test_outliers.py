@@ -77,3 +77,35 @@ def test_rest_and_few_digits_are_no_limits() -> None:
     noise = np.where(late > 0, 0.01, 0.0) * np.random.default_rng(1).normal(size=N)
     for measured in (late + noise, 0.05 * np.round(np.sin(T) / 0.05)):
         assert not sentences(measured, 1.2 * late - 0.1, noise=0.0)
+
+
+def cut(noise: float = 0.01) -> tuple[np.ndarray, np.ndarray]:
+    """A noisy record that a sensor cuts at 0.9 several times, and a law that became steep there."""
+    rng, y = np.random.default_rng(2), np.sin(3 * T)
+    measured = np.minimum(y + noise * rng.normal(size=N), 0.9)
+    return measured, np.where(y > 0.9, 0.87 + 0.3 * (y - 0.9), y)
+
+
+def test_a_limit_is_named_where_the_law_has_become_steep() -> None:
+    measured, predicted = cut()
+    (sentence,) = sentences(measured, predicted, noise=0.0)
+    assert "have its largest value, 0.9, without the noise of the others: leave them" in sentence
+    (sentence,) = sentences(-measured, -predicted, noise=0.0)
+    assert "have its least value, -0.9, without" in sentence
+
+
+def test_what_rests_at_its_extreme_again_and_again_is_at_no_limit() -> None:
+    measured, predicted = cut()
+    resting = np.where(measured == 0.9, 0.9, predicted)
+    digits = np.round(measured, 1)
+    square = np.where(np.sin(3 * T) > 0, 1.0, -1.0)
+    often_square = np.where(np.sin(3 * T) > 0, 1.0, measured)
+    held = np.where(np.sin(3 * T) > 0.5, np.round(T), measured)  # rests elsewhere each time
+    without_noise, _ = cut(noise=0.0)
+    assert not sentences(measured, resting, noise=0.0)  # a mode of the model
+    assert not sentences(measured - 0.9, predicted - 0.9, noise=0.0)  # nothing turns
+    assert not sentences(digits, predicted, noise=0.0)
+    assert not sentences(square, 0.9 * square, noise=0.0)
+    assert not sentences(often_square, np.minimum(often_square, 1.0), noise=0.0)
+    assert not sentences(held, 0.98 * held, noise=0.0)
+    assert not sentences(without_noise, predicted, noise=0.0)

@@ -1,12 +1,16 @@
 """A model that is too sensitive to follow a whole record is trained on pieces of it."""
 
 from functools import cache
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.training.auto.odd_records import odd_records
 from acausal.training.auto.sensitive import in_pieces
+from acausal.training.record_fit import RecordFit
 from tests.support.slow import some_slow
 
 
@@ -75,3 +79,24 @@ def test_pieces_begin_where_states_are_measured_and_hold_all_else() -> None:
     assert sum(len(p) for p in pieces.values()) == 450 - 5
     assert all(np.isfinite(p["x"][0]) for p in pieces.values())
     assert in_pieces(data, 50.0, ("x",)) is None
+
+
+def left_of(pieces: int, **errors: float) -> list[str]:
+    """What is said of records, or of three pieces of each, of which the last leaves so much."""
+    t, fits = np.linspace(0, 1, 50), dict[str, RecordFit]()
+    for record, size in errors.items():
+        for start, much in ((0, 0.1), (1, 0.1), (2, size)):
+            name = f"{record} from {start} s" if pieces else f"{record}{start}"
+            off = much * np.sin(5 * t)[:, None]
+            fits[name] = RecordFit(
+                name, ("x",), t + start, off, 0 * off, {}, np.ones(1), {}, {}, {}
+            )
+    fit: Any = SimpleNamespace(pieces=pieces, records=fits)
+    return list(odd_records(fit))
+
+
+def test_a_record_is_odd_among_records_and_not_a_piece_among_pieces() -> None:
+    assert not left_of(3, record=0.4)
+    assert left_of(0, record=0.4)[0].startswith("Of 'record2' it leaves")
+    assert not left_of(6, a=0.3, b=0.3)
+    assert left_of(6, a=0.1, b=0.9)[0].startswith("Of 'b' it leaves")

@@ -115,13 +115,13 @@ class Automatic:
     find_misread: Callable[[], Iterator[Misread]] | None
     pieces: int = 0
 
-    def concerns(self, loss: float) -> list[str]:
+    def concerns(self, loss: float) -> tuple[str, ...]:
         """A sentence on each input that may have been misread, where a training ended with much loss."""
         if self.find_misread is None or self.linear is None:
-            return []
+            return ()
         if loss <= EXPLAINS * np.sqrt(len(self.linear.problem.targets)):
-            return []
-        return [str(one) for one in self.find_misread() if one.loss < loss]
+            return ()
+        return tuple(str(one) for one in self.find_misread() if one.loss < loss)
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
         """The start of a training, with parameters and first states where the linear start found them."""

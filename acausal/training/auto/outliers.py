@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from acausal.data import noise_level
 from acausal.errors import percent
+from acausal.training.objective.losses import LEAST
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated
 
@@ -28,6 +30,9 @@ part, up to so many samples from there: where they do, an event came early or la
 STUCK, OFTEN, OVER = 0.01, 10.0, 0.02
 """A sensor is at its limit if more than this part of the samples are, so many times as many as have another value, and
 predictions go beyond by the third part of the target's deviation."""
+
+RUN = 5
+"""A sensor at its limit stays there over so many samples, twice at least."""
 
 LEAVE = "leave them out (nan, missing='nan')"
 """What to do about wrong samples."""
@@ -54,6 +59,12 @@ class _Series(NamedTuple):
             jump = np.nanmax(np.append(jumps[[begin, end]], 0.0))
             found[begin:end] = smooth and jump > JUMP * off
         return found
+
+    def runs(self, mask: Bool[np.ndarray, " n"]) -> Iterator[_Series]:
+        """The parts over which a mask stays as it is."""
+        ends = np.flatnonzero(np.diff(mask)) + 1
+        for own in np.split(np.arange(len(mask)), ends) if len(mask) else ():
+            yield _Series(self.t[own], self.measured[own], self.predicted[own])
 
 
 def _series(problem: Problem, simulated: Simulated) -> Iterator[tuple[str, list[_Series]]]:
@@ -89,7 +100,8 @@ def outliers(problem: Problem, simulated: Simulated) -> Iterator[str]:
 def at_limits(problem: Problem, simulated: Simulated) -> Iterator[str]:
     """A sentence on each target that stays at its least or largest value where predictions go beyond.
 
-    Not where a record begins so, at rest, nor where other values are as frequent, as of a sensor with few digits.
+    Not where a record begins so, at rest, nor where other values are as frequent, as of a sensor with few digits. What
+    is trained may itself stay near the limit, as by a law that is steep there: then the samples show it, see `_is_cut`.
     """
     for name, series in _series(problem, simulated):
         t, measured, predicted = map(np.concatenate, zip(*series, strict=True))
@@ -103,7 +115,32 @@ def at_limits(problem: Problem, simulated: Simulated) -> Iterator[str]:
                 continue
             beyond = float(np.mean(sign * (predicted[there] - limit)))
             if beyond > OVER * float(np.std(measured)):
-                yield (
-                    f"{np.sum(there)} of {len(t)} samples of {name} have its {which} value, {limit:.4g}, where "
-                    f"predictions go beyond: {LEAVE} if a sensor is at its limit there."
-                )
+                why = "where predictions go beyond"
+            elif _is_cut(series, limit):
+                why = "without the noise of the others"
+            else:
+                continue
+            yield (
+                f"{np.sum(there)} of {len(t)} samples of {name} have its {which} value, {limit:.4g}, {why}: {LEAVE} if "
+                "a sensor is at its limit there."
+            )
+
+
+def _is_cut(series: Sequence[_Series], limit: float) -> bool:
+    """Whether noisy samples come back to exactly the same value, other than zero, at which predictions do not rest.
+
+    At rest a sensor has its noise, or reads zero; one that holds its value comes back to another. Digits are no noise.
+    """
+    if limit == 0:
+        return False
+    there, others = list[_Series](), list[_Series]()
+    for one in series:
+        for run in one.runs(one.measured == limit):
+            (there if run.measured[0] == limit else others).append(run)
+    if sum(len(run.t) >= RUN for run in there) < 2 or not others:
+        return False
+    values = np.concatenate([run.measured for run in others])
+    noise = noise_level([run.measured for run in others], [run.t for run in others])
+    digit = float(np.min(np.diff(np.unique(values)), initial=np.inf))
+    off = np.concatenate([run.predicted for run in there]) - limit
+    return max(digit, LEAST * float(np.std(values))) < noise < float(np.sqrt(np.mean(off**2)))

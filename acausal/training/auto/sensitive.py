@@ -93,7 +93,7 @@ def in_pieces(
     found: dict[str, Data] = {}
     for name, data in records.items():
         t = data.time
-        whole = re.sub(r" from [^ ]+ s$", "", name) if again else name
+        whole = whole_record(name) if again else name
         ends = np.linspace(t[0], t[-1], 1 + int(np.ceil((t[-1] - t[0]) / length)))
         known = np.all([np.isfinite(data[n]) for n in begin], axis=0) | np.zeros(len(t), bool)
         if len(ends) == 2:
@@ -105,6 +105,11 @@ def in_pieces(
             if len(own) >= LEAST // 2:
                 found[f"{whole} from {own[0]:.12g} s"] = data.between(own[0], own[-1])
     return found if len(found) > len(records) else None
+
+
+def whole_record(name: str) -> str:
+    """The record of a piece, by their names."""
+    return re.sub(r" from [^ ]+ s$", "", name)
 
 
 def _moved(problem: Problem, trainable: Trainable, simulated: Simulated) -> Simulated | None:

@@ -11,21 +11,19 @@ from acausal.errors import TrainingError, listing, percent
 from acausal.networks import OffsetCorrected
 from acausal.simulation import EXPLICIT, RK4
 from acausal.training.auto.likely_causes import likely_causes
+from acausal.training.auto.odd_records import odd_records
 from acausal.training.auto.outliers import at_limits, outliers
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
 from acausal.training.auto.step_choice import allowed_error, difference
+from acausal.training.objective.down_to_noise import down_to
 from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Band
-from acausal.training.uncertainty.residuals import unexplained
-
-DOWN_TO = 1.15
-"""A loss of up to so many times that of the noise is down to the noise,"""
 
 SMALL = 0.01
-"""and one of less than this part of the targets' deviation is small, whatever the noise."""
+"""A loss of less than this part of the targets' deviation is small, whatever the noise."""
 
 LOOSE, STEEP, MOST_SEEN = 0.1, 0.06, (0.01, 0.99)
 """A law is hardly determined if two of its standard deviations are more than this part of its range, or the second part
@@ -40,9 +38,6 @@ TOGETHER = 0.99
 
 FAR_START = 2.0
 """A start that is found further off than so many standard deviations of its prior contradicts it."""
-
-ODD = 1.4
-"""A record that leaves so many times what any other does is named."""
 
 MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
@@ -85,7 +80,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     noise, level = noise_loss(problem.records, simulated.y), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
-    down, good = fit.loss <= DOWN_TO * noise, explains(problem, fit.loss, noise)
+    down = fit.loss <= down_to(problem.records) * noise
+    good = explains(problem, fit.loss, noise)
     left = [] if fit.loss <= noise else list(_left(fit))
     if down:
         first = f"explains the record {'nearly ' * bool(left)}down to its noise."
@@ -103,8 +99,9 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     loose = [*_all_taken(problem), *_far_starts(fit), *(_hardly_determined(fit) if good else ())]
     good = good and not loose and (share <= SMALL or not left)
     suspect = list(outliers(problem, simulated))
-    odd = () if good else _odd_records(fit)
-    others = [*odd, *suspect, *at_limits(problem, simulated), *loose, *left]
+    odd = () if good else odd_records(fit)
+    limited = list(at_limits(problem, simulated))
+    others = [*fit.misread, *odd, *suspect, *limited, *loose, *left]
     if (
         not (down or share <= SMALL)
         and np.isfinite(fit.loss)
@@ -129,13 +126,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"{percent(OFF * times)}, so even a law that is nearly right may leave the whole record. Judge its "
             "laws over shorter parts (data.between)."
         )
-    elif not steps and not np.isfinite(fit.step_error or 0.0):
-        others.append("In steps of half the length the model diverges: take a smaller dt.")
-    elif not steps and fit.step_error is not None:
-        rk4 = "" if isinstance(problem.solver, RK4) else ", or solver='rk4'"
-        others.append(
-            f"Its steps err by {percent(fit.step_error / level)} of the targets: take a smaller dt{rk4}."
-        )
+    elif not (steps or limited or fit.misread):  # laws that follow what is wrong are steep
+        others += _smaller_steps(fit)
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
     if fit.without_constant:
         others += _constants(fit)
@@ -153,29 +145,7 @@ def explains(problem: Problem, loss: float, noise: float) -> bool:
     if problem.loss is not LOSSES["nrmse"]:
         return True
     small = loss <= SMALL * np.sqrt(len(problem.targets))
-    return bool(np.isfinite(loss) and (loss <= DOWN_TO * noise or small))
-
-
-def _odd_records(fit: TrainedModel) -> Iterator[str]:
-    """A record that is explained far worse than the others."""
-    left: dict[str, float] = {}
-    for name, record in fit.records.items():
-        known = [
-            error / size for error, size in zip(record.rms.values(), record.sigma, strict=True)
-        ]
-        known = [share for share in known if np.isfinite(share)]
-        left |= {name: float(np.linalg.norm(known) / np.sqrt(len(known)))} if known else {}
-    if len(left) < 2:
-        return
-    *others, worst = sorted(left, key=left.__getitem__)
-    record = fit.records[worst]
-    columns = zip(record.errors.T, record.sigma.tolist(), strict=True)
-    beside_noise = [unexplained([c], size) for c, size in columns if np.isfinite(c).any()]
-    if left[worst] > ODD * left[others[-1]] > 0 and max(beside_noise) > left[worst] / 2:
-        yield (
-            f"Of '{worst}' it leaves {percent(left[worst])}, of each other record {percent(left[others[-1]])} at most: "
-            "look at that one first (a sign, a unit, another load)."
-        )
+    return bool(np.isfinite(loss) and (small or loss <= down_to(problem.records) * noise))
 
 
 def _all_taken(problem: Problem) -> Iterator[str]:
@@ -246,6 +216,18 @@ def _doubt(fit: TrainedModel, name: str, band: Band) -> str | None:
         f"{name} is known to {percent(doubt[k])} of its range only near {band.x[k]:.3g} (two standard "
         f"deviations){', where it is steep' * bool(band.steep[k])}. Measure more there."
     )
+
+
+def _smaller_steps(fit: TrainedModel) -> Iterator[str]:
+    """What to do about steps that err by more than they may."""
+    if fit.step_error is None:
+        return
+    if not np.isfinite(fit.step_error):
+        yield "In steps of half the length the model diverges: take a smaller dt."
+        return
+    level = np.sqrt(len(fit.problem.targets))
+    rk4 = "" if isinstance(fit.problem.solver, RK4) else ", or solver='rk4'"
+    yield f"Its steps err by {percent(fit.step_error / level)} of the targets: take a smaller dt{rk4}."
 
 
 def _left(fit: TrainedModel) -> Iterator[str]:
