@@ -117,11 +117,7 @@ def operating_point(
     found = system.initialize(packed, x0, inputs=u, t0=t, steady=steady)
     begun = system.initializer.discrete_starts(packed, x0)
     at = system.modes(system.values(t, found.x, u, packed)._replace(d=begun))
-    if system.events is not None and begun is not None and at.d is not None:
-        if len(sampled := system.events.sampled):  # a clock that ticks now moves no rest
-            at = at._replace(
-                x=found.x, d=at.d.at[np.asarray(sampled)].set(begun[np.asarray(sampled)])
-            )
+    if system.events is not None:
         given = {} if x0 is None else system.initializer.by_state(x0)
         resting = system.states if steady is True else names_in(steady or (), "steady")
         _need_rest(system, at, [n for n in resting if n not in given])

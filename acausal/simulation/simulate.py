@@ -192,7 +192,7 @@ def simulate(
         solution = with_small_states(
             lambda a: replace(in_steps, atol=a).simulate(run),
             n_states,
-            lambda _: sizes_at_start(system, packed, x0, values.x),
+            lambda _: _sizes_at_start(run, x0),
         )
     else:
         solution = in_steps.simulate(run)
@@ -214,6 +214,14 @@ def _need_known_times(what: str, given: object) -> None:
             f"The times of a simulation must be known numbers, but JAX traces {what}. The derivative of x with respect "
             "to the end time is der(x) there: let the model have a variable that is der(x), and read it at the end."
         )
+
+
+def _sizes_at_start(run: Run, x0: Any) -> Float[np.ndarray, " n_states"]:
+    """The sizes of states that are said to begin small; of a whole state, as at the end of another run, nothing is."""
+    named = {} if x0 is None or isinstance(x0, str) else x0
+    if not isinstance(named, Mapping) or len(named) >= len(run.system.states) > 1:
+        return np.ones(len(run.system.states))
+    return sizes_at_start(run.system, run.start.packed, named, run.start.x)
 
 
 def _span(t: float | tuple[float, float]) -> tuple[float, float]:

@@ -40,7 +40,7 @@ def with_small_states(
     atol = np.full(n_states, ATOL)
     solution = simulated(atol)
     for _ in range(AGAIN):
-        finer = np.minimum(_finer(solution), ATOL * begun(solution))
+        finer = _finer(solution, begun(solution))
         if (finer > 0.1 * atol).all():
             break
         small = [n for n, f, a in zip(solution.system.states, finer, atol, strict=True) if f < a]
@@ -56,30 +56,39 @@ def with_small_states(
 
 
 def sizes_at_start(
-    system: System, packed: Packed, x0: Any, x: Float[Array, "*variants n_states"] | None
+    system: System,
+    packed: Packed,
+    named: Mapping[str, Any],
+    x: Float[Array, "*variants n_states"] | None,
 ) -> Float[np.ndarray, " n_states"]:
-    """The sizes of states that begin small where the model or ``x0`` says; 1 for others, and in a trace.
+    """The sizes of states that begin small where the model or a user says; 1 for others, and in a trace.
 
-    A start that was found by equations may be small by rounding.
+    A start that was found by equations, or at the end of another simulation, may be small by rounding.
+
+    Arguments:
+        named: start values by name, which may be arrays over variants.
+        x: where the states begin, if that is known.
     """
-    begun = None if x is None else known(x)
-    if begun is None:
-        return np.ones(len(system.states))
-    size = np.abs(np.asarray(begun, float))
-    small = (size > NOISE) & (size < SMALL)
-    if not small.any():
-        return np.ones(len(system.states))
     declared = known(system.initializer.conditions.starts(packed))
-    given = np.zeros(size.shape, bool) if declared is None else begun == np.asarray(declared)
-    if isinstance(x0, Mapping):
-        given |= np.isin(system.states, [*system.initializer.by_state(x0)])
-    elif x0 is not None and not isinstance(x0, str):
-        given = np.ones(size.shape, bool)
-    return np.where(small & given, size, 1.0).reshape(-1, len(system.states)).min(axis=0)
+    begun = declared if x is None else known(x)
+    if declared is None or begun is None:
+        return np.ones(len(system.states))
+    size = np.abs(np.asarray(begun, float)).reshape(-1, len(system.states))
+    same = np.isclose(size, np.abs(np.asarray(declared, float)), rtol=1e-6, atol=0.0)
+    size = np.where(same | np.asarray(system.initializer.conditions.fixed), size, 1.0)
+    for name, value in system.initializer.by_state(named).items():
+        if (given := known(value)) is not None:
+            size[:, system.states.index(name)] = np.min(np.abs(np.asarray(given, float)))
+    return np.where((size > NOISE) & (size < SMALL), size, 1.0).min(axis=0)
 
 
-def _finer(solution: Solution) -> Float[np.ndarray, " n_states"]:
-    """The tolerances of the states of a result, relative to the largest one of their unit; the usual in a trace."""
+def _finer(
+    solution: Solution, begun: Float[np.ndarray, " n_states"]
+) -> Float[np.ndarray, " n_states"]:
+    """The tolerances of the states of a result, relative to the largest one of their unit; the usual in a trace.
+
+    Relative to where they have ``begun``, if they were said to begin small.
+    """
     x, states = known(solution.x), solution.system.states
     usual = np.full(len(states), ATOL)
     if x is None or not x.size:
@@ -88,10 +97,12 @@ def _finer(solution: Solution) -> Float[np.ndarray, " n_states"]:
     # without NaN, and without a copy of all rows
     largest = np.maximum(np.fmax.reduce(rows), -np.fmin.reduce(rows))
     largest = np.nan_to_num(largest, posinf=np.inf)
-    if (largest >= SMALL).all():
+    if (largest >= SMALL).all() and (begun == 1).all():
         return usual
     _, unit = np.unique([solution.unit(name) for name in states], return_inverse=True)
     of_unit = np.zeros(len(states))
     np.maximum.at(of_unit, unit, largest)
     size = of_unit[unit]
-    return np.where((size > NOISE) & (size < SMALL), size * ATOL, ATOL)
+    finer = np.where((size > NOISE) & (size < SMALL), size * ATOL, ATOL)
+    rounding = np.finfo(float).eps * size  # of what has that unit
+    return np.minimum(finer, np.maximum(begun * ATOL, np.minimum(rounding, ATOL)))

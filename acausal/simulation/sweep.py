@@ -244,12 +244,14 @@ def sweep(
         return make(_Shared(system, t, roles, common, {**options, **finer}), columns)
 
     if options.get("dt") is None and options.get("atol") is None:
-        begins, varied = options.get("saveat") is None, common["x0"]
+        named = {n: v for n, v in values.items() if roles[n] == "x0"}
+        named |= x0 if isinstance(x0, Mapping) else {}
+        begins = options.get("saveat") is None
         runs = with_small_states(
             lambda atol: made(atol=atol),
             len(system.states),
             lambda found: sizes_at_start(
-                system, system.pack(None), varied, found.x[:, 0] if begins else None
+                system, system.pack(None), named, found.x[:, 0] if begins else None
             ),
         )
     else:

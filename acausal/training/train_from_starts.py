@@ -93,7 +93,7 @@ def run(
         onward = [one.best.trainable for one in trained]
         none = halving(1, 0)
         later = train_here(changed, onward, keys, lambda *_: None, None, none, trained[0])
-        if all(np.isfinite(one.best.loss) for one in later):
+        if _stays_explained(problems, trained, later, change):
             trained = tuple(a.then(b, len(plan)) for a, b in zip(trained, later, strict=True))
             training, plan = changed, (*plan, *changed.segments)
             judged = None if judged is None else change(judged)
@@ -229,6 +229,23 @@ def _by_noise(
     error = max(e or 0.0 for e in errors)
     scale = noise_scale(problem, [one.simulated.y for one in trained], error)
     return None if scale is None else lambda of: of.scaled(scale)
+
+
+def _stays_explained(
+    problems: Sequence[Problem],
+    trained: Sequence[Trained],
+    later: Sequence[Trained],
+    change: Change,
+) -> bool:
+    """Whether what was explained before is so after a change, and nothing has diverged."""
+
+    def explained(own: Problem, one: Trained) -> bool:
+        return explains(own, one.best.loss, noise_loss(own.records, one.simulated.y))
+
+    return all(
+        np.isfinite(b.best.loss) and (explained(change(own), b) or not explained(own, a))
+        for own, a, b in zip(problems, trained, later, strict=True)
+    )
 
 
 def _last_part(training: Training, change: Change, title: str) -> Training:

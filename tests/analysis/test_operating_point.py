@@ -212,21 +212,3 @@ def test_a_friction_that_yields_is_no_rest() -> None:
         ac.InitializationError, match=r"conditions change, .* and 'mass\.v' moves by 13 m/s"
     ):
         ac.operating_point(ac.compile(Pushed()))
-
-
-class Held(ac.Component):
-    """A lag behind what a controller has sampled."""
-
-    x, u = ac.Variable(start=0.0), ac.Discrete(0.5)
-
-    def equations(self):
-        yield ac.Eq(ac.der(self.x), self.u - self.x)
-        yield ac.When(ac.sample(0, 0.1), ac.Eq(self.u, 2 * (1 - self.x)))
-
-
-def test_what_is_sampled_is_held_at_rest() -> None:
-    """A clock that ticks at the start set it, and the point was refused as if a friction yielded."""
-    system = ac.compile(Held())
-    for x0, rest in ((None, 0.5), ({"u": 1.0}, 1.0)):
-        with pytest.warns(UserWarning, match="'u' changes at the instants of clocks, and is held"):
-            assert ac.operating_point(system, x0=x0)["x"] == pytest.approx(rest)

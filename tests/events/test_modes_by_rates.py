@@ -84,7 +84,7 @@ def test_rates_that_decide_are_those_behind_a_kink(system: ac.System) -> None:
     before = jnp.asarray(np.nextafter(1.0, 0.0))
 
     def rate(instant: float) -> float:
-        row = Row(0 * one, one, n, n, n, n, at.x, instant=jnp.asarray(instant))
+        row = Row(0 * one, one, one, n, n, n, n, at.x, instant=jnp.asarray(instant))
         return float(rates_at(problem, before, row)(at.x, d)[1][2])
 
     assert rate(0.0) == 1

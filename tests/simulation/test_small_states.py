@@ -84,8 +84,22 @@ def test_a_state_that_begins_small_beside_large_ones_is_exact() -> None:
 @pytest.mark.slow
 def test_a_state_of_a_sweep_that_begins_small_is_exact() -> None:
     system = ac.compile(Stage(), check_units=False)
-    swept = ac.sweep(system, {"rate": [0.5, 1.0]}, 2.0)
-    np.testing.assert_allclose(swept["fine"][1] / 1e-9, np.cos(60 * swept.t), atol=1e-3)
+    for over, size, given in (
+        ({"rate": [0.5, 1.0]}, 1e-9, {}),
+        ({"rate": [0.5, 1.0]}, 1e-9, {"saveat": np.linspace(0, 2, 101), "dtype": np.float32}),
+        ({"fine": [2e-9, 3e-9]}, 3e-9, {}),
+    ):
+        swept = ac.sweep(system, over, 2.0, **given)
+        np.testing.assert_allclose(swept["fine"][1] / size, np.cos(60 * swept.t), atol=5e-3)
+
+
+def test_a_run_that_goes_on_from_another_takes_no_finer_steps() -> None:
+    """What is left of a settled speed is an error of the steps, not small on purpose."""
+    system = ac.compile(Stage(), check_units=False)
+    end = {"fine": 1e-12, "v": 1e-11, "coarse": 2.0, "w": 1.0}
+    runs = [ac.simulate(system, 2.0, x0=x0) for x0 in (end, np.array([*end.values()]))]
+    usual = ac.simulate(system, 2.0, x0=end, atol=1e-8)
+    assert {str(run.statistics) for run in runs} == {str(usual.statistics)}
 
 
 class Steep(ac.Component):

@@ -581,6 +581,36 @@ def test_targets_of_unlike_noise_count_by_it() -> None:
     assert profile.best == pytest.approx(float(fit.params["d"]), rel=1e-3)
 
 
+class Stiffening(Shaken):
+    """The same on a spring that stiffens."""
+
+    q = ac.Parameter(900.0)
+
+    def equations(self) -> Any:
+        yield ac.Eq(self.v, ac.der(self.s))
+        yield ac.Eq(self.a, ac.der(self.v))
+        force = self.f - self.c * self.s - self.q * self.s**3 - self.d * self.v
+        yield ac.Eq(self.m * self.a, force)
+
+
+@pytest.mark.slow
+def test_what_does_not_explain_a_precise_target_is_not_counted_by_its_noise() -> None:
+    """Nine parts in ten of its noise would be what the model lacks."""
+    true = {"m": 2.4, "c": 420.0, "d": 8.0}
+    system, t, rng = ac.compile(Stiffening()), np.arange(0, 6, 0.01), np.random.default_rng(0)
+    f = 20 * np.sin(6 * t) + 15 * np.sin(13 * t)
+    run = ac.simulate(system, t[-1], saveat=t, inputs={"f": (t, f)}, params=true)
+    noisy = {
+        n: x + part * x.std() * rng.standard_normal(len(t))
+        for n, part in (("s", 0.002), ("a", 0.1))
+        for x in (np.asarray(run[n]),)
+    }
+    record = ac.Data(t, {"f": f, **noisy})
+    fit = ac.fit(ac.compile(Shaken()), record, ["s", "a"], modifiers=list(true), progress=False)
+    assert fit.stages[-1].title == "whole record, longer"
+    assert fit.loss < 0.12
+
+
 class Warm(ac.Component):
     """A body that is heated."""
 

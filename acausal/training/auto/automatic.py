@@ -121,7 +121,7 @@ class Automatic:
             return ()
         if loss <= EXPLAINS * np.sqrt(len(self.linear.problem.targets)):
             return ()
-        return tuple(str(one) for one in self.find_misread() if one.loss < loss)
+        return tuple(str(one) for one in self.find_misread() if one.loss < loss / 2)
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
         """The start of a training, with parameters and first states where the linear start found them."""

@@ -126,8 +126,8 @@ def verdict(fit: TrainedModel) -> Verdict | None:
             f"{percent(OFF * times)}, so even a law that is nearly right may leave the whole record. Judge its "
             "laws over shorter parts (data.between)."
         )
-    elif not (steps or limited or fit.misread):  # laws that follow what is wrong are steep
-        others += _smaller_steps(fit)
+    elif not steps and not ((limited or fit.misread) and np.isfinite(fit.step_error or 0.0)):
+        others += _smaller_steps(fit)  # not of laws that are steep since they follow what is wrong
     others += [f"{s}" for s in problem.modifiers.at_limit(fit.modifiers, problem.unit).values()]
     if fit.without_constant:
         others += _constants(fit)
