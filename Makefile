@@ -4,6 +4,7 @@
 #   make test PYTEST_ARGS="-n 0 -x -k spring"     arguments for pytest
 #   make test PYTHON=python3.13                   the interpreter to build .venv with
 #   make test-newest SAMPLE=--sample              one file of tests a room
+#   make test-slow SAMPLE=--sample                one of three slow tests a file
 #   make lock LOCK_ARGS=--upgrade                 newer versions of everything
 
 VENV := .venv
@@ -49,9 +50,9 @@ test: $(READY) ## all tests but the slow ones
 	$(BIN)/python -m pytest $(PYTEST_ARGS)
 
 test-slow: $(READY) ## the slow tests, but that of the wheel, which `make wheel` runs
-	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) -m "slow and not machines" \
+	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) $(SAMPLE) -m "slow and not machines" \
 		$(LONG:%=--ignore=%) --ignore=tests/test_packaging.py
-	$(BIN)/python -m pytest $(PYTEST_ARGS) -m "slow and not machines" $(LONG)
+	$(BIN)/python -m pytest $(PYTEST_ARGS) $(SAMPLE) -m "slow and not machines" $(LONG)
 
 # Separate environments, made by .ci/dependencies.py each time they are used.
 test-newest test-uv test-today: export XLA_FLAGS ?= $(QUICK)

@@ -6,7 +6,7 @@ import shutil
 import sys
 import tempfile
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -46,8 +46,37 @@ def maps() -> int:
         return MAPS + 1
 
 
+ONE_OF = 3
+"""Of the slow tests of a file so many-th are in a sample, the first one among them."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """An option for the slow tests in half an hour."""
+    parser.addoption(
+        "--sample", action="store_true", help=f"of the slow tests of each file, one of {ONE_OF}"
+    )
+
+
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Choose what is fast, slow and for `machines`, and a sample of the slow ones where that is asked for."""
+    by_cases(items)
+    if config.getoption("sample"):
+        left_out = beside_sample(items)
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if item not in set(left_out)]
+
+
+def beside_sample(items: Iterable[pytest.Item]) -> list[pytest.Item]:
+    """The slow tests that are not in the sample."""
+    files = defaultdict[Path, list[pytest.Item]](list)
+    for item in items:
+        if tier(item) == "slow":
+            files[item.path].append(item)
+    return [item for own in files.values() for i, item in enumerate(own) if i % ONE_OF]
+
+
+def by_cases(items: Iterable[pytest.Item]) -> None:
     """Of a test with the mark ``cases(fast=2, slow=5)`` two cases are fast, five slow, and the others for `machines`.
 
     They are spread evenly over the cases. Without a number of fast ones none is moved to the slow ones; without one of
