@@ -166,7 +166,7 @@ def test_what_is_built_is_not_in_the_repository() -> None:
 def test_a_sample_has_one_of_three_slow_tests_a_file(tmp_path: Path) -> None:
     for name in "ab":
         slow = "".join(f"def test_{i}(): pass\n" for i in range(4))
-        text = f"import pytest\ndef test_fast(): pass\npytestmark = pytest.mark.slow\n{slow}"
+        text = f"import pytest\ndef test_first(): pass\npytestmark = pytest.mark.slow\n{slow}"
         (tmp_path / f"test_{name}.py").write_text(text)
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-p", "tests.conftest", "--sample", "-m", "slow", "--collect-only",
