@@ -66,20 +66,29 @@ def sizes_at_start(
     A start that was found by equations, or at the end of another simulation, may be small by rounding.
 
     Arguments:
-        named: start values by name, which may be arrays over variants.
+        named: start values by name.
         x: where the states begin, if that is known.
     """
+    none = np.ones(len(system.states))
+    begun = None if x is None else known(x)
+    if not system.states or (x is not None and (begun is None or not _small(begun).any())):
+        return none
     declared = known(system.initializer.conditions.starts(packed))
-    begun = declared if x is None else known(x)
-    if declared is None or begun is None:
-        return np.ones(len(system.states))
-    size = np.abs(np.asarray(begun, float)).reshape(-1, len(system.states))
+    if declared is None:
+        return none
+    size = np.abs(np.asarray(declared if begun is None else begun, float)).reshape(-1, len(none))
     same = np.isclose(size, np.abs(np.asarray(declared, float)), rtol=1e-6, atol=0.0)
     size = np.where(same | np.asarray(system.initializer.conditions.fixed), size, 1.0)
     for name, value in system.initializer.by_state(named).items():
         if (given := known(value)) is not None:
-            size[:, system.states.index(name)] = np.min(np.abs(np.asarray(given, float)))
-    return np.where((size > NOISE) & (size < SMALL), size, 1.0).min(axis=0)
+            size[:, system.states.index(name)] = abs(float(given))
+    return np.where(_small(size), size, 1.0).min(axis=0)
+
+
+def _small(values: Array | np.ndarray) -> np.ndarray:
+    """Which values are small, and larger than rounding."""
+    size = np.abs(np.asarray(values, float))
+    return (size > NOISE) & (size < SMALL)
 
 
 def _finer(
@@ -103,6 +112,6 @@ def _finer(
     of_unit = np.zeros(len(states))
     np.maximum.at(of_unit, unit, largest)
     size = of_unit[unit]
-    finer = np.where((size > NOISE) & (size < SMALL), size * ATOL, ATOL)
+    finer = np.where(_small(size), size * ATOL, ATOL)
     rounding = np.finfo(float).eps * size  # of what has that unit
     return np.minimum(finer, np.maximum(begun * ATOL, np.minimum(rounding, ATOL)))

@@ -244,7 +244,7 @@ def sweep(
         return make(_Shared(system, t, roles, common, {**options, **finer}), columns)
 
     if options.get("dt") is None and options.get("atol") is None:
-        named = {n: v for n, v in values.items() if roles[n] == "x0"}
+        named = {n: np.min(np.abs(v)) for n, v in values.items() if roles[n] == "x0"}
         named |= x0 if isinstance(x0, Mapping) else {}
         begins = options.get("saveat") is None
         runs = with_small_states(
