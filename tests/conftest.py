@@ -51,7 +51,7 @@ ONE_OF = 3
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """An option for the slow tests in half an hour."""
+    """An option for fewer slow tests."""
     parser.addoption(
         "--sample", action="store_true", help=f"of the slow tests of each file, one of {ONE_OF}"
     )
@@ -62,9 +62,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Choose what is fast, slow and for `machines`, and a sample of the slow ones where that is asked for."""
     by_cases(items)
     if config.getoption("sample"):
-        left_out = beside_sample(items)
-        config.hook.pytest_deselected(items=left_out)
-        items[:] = [item for item in items if item not in set(left_out)]
+        left_out = set(beside_sample(items))
+        config.hook.pytest_deselected(items=[item for item in items if item in left_out])
+        items[:] = [item for item in items if item not in left_out]
 
 
 def beside_sample(items: Iterable[pytest.Item]) -> list[pytest.Item]:

@@ -435,8 +435,7 @@ def linearize(
         t: time [s], by default 0.
 
     Raises:
-        DataError: if ``x`` or ``inputs`` do not fit the model.
-        DataError: where the model or its derivatives are not finite.
+        DataError: if ``x`` or ``inputs`` do not fit the model, or where it or its derivatives are not finite.
         ModelError: for an output that the model does not have, and for a model that is not compiled.
     """
     need_compiled(system, "linearize")

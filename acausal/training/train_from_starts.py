@@ -22,7 +22,7 @@ from acausal.training.auto.step_choice import finer_steps
 from acausal.training.auto.verdict import explains, step_error
 from acausal.training.concerns import concerns
 from acausal.training.member import Trained
-from acausal.training.objective.down_to_noise import down_to
+from acausal.training.objective.down_to_noise import is_down_to_noise
 from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.options import FitOptions
@@ -177,7 +177,7 @@ def _in_pieces(
 def _needs_pieces(problem: Problem, trained: Trained, *, cut: bool) -> bool:
     """Whether whole records were not explained, or pieces of them, as the model is sensitive or has run away."""
     best = trained.best
-    if explains(problem, best.loss, noise_loss(problem.records, trained.simulated.y)):
+    if _explained(problem, trained):
         return False
     lost = trained.failed is not None or not np.isfinite(best.loss)
     return cut or lost or is_sensitive(problem, best.trainable, trained.simulated)
@@ -223,8 +223,7 @@ def _by_noise(
     if training.automatic is None or told or any(one.interrupted for one in trained):
         return None
     for own, one in zip(problems, trained, strict=True):
-        noise = noise_loss(own.records, one.simulated.y)
-        if not one.best.loss <= down_to(own.records) * noise:
+        if not is_down_to_noise(own.records, one.best.loss, _noise_loss(own, one)):
             return None
     error = max(e or 0.0 for e in errors)
     scale = noise_scale(problem, [one.simulated.y for one in trained], error)
@@ -238,14 +237,20 @@ def _stays_explained(
     change: Change,
 ) -> bool:
     """Whether what was explained before is so after a change, and nothing has diverged."""
-
-    def explained(own: Problem, one: Trained) -> bool:
-        return explains(own, one.best.loss, noise_loss(own.records, one.simulated.y))
-
     return all(
-        np.isfinite(b.best.loss) and (explained(change(own), b) or not explained(own, a))
+        np.isfinite(b.best.loss) and (_explained(change(own), b) or not _explained(own, a))
         for own, a, b in zip(problems, trained, later, strict=True)
     )
+
+
+def _explained(problem: Problem, trained: Trained) -> bool:
+    """Whether the best of a training explains its records."""
+    return explains(problem, trained.best.loss, _noise_loss(problem, trained))
+
+
+def _noise_loss(problem: Problem, trained: Trained) -> float:
+    """The loss of the noise, as the best of a training leaves it."""
+    return noise_loss(problem.records, trained.simulated.y)
 
 
 def _last_part(training: Training, change: Change, title: str) -> Training:

@@ -15,7 +15,7 @@ from acausal.training.auto.odd_records import odd_records
 from acausal.training.auto.outliers import at_limits, outliers
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity
 from acausal.training.auto.step_choice import allowed_error, difference
-from acausal.training.objective.down_to_noise import down_to
+from acausal.training.objective.down_to_noise import is_down_to_noise
 from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
@@ -80,7 +80,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
     noise, level = noise_loss(problem.records, simulated.y), np.sqrt(len(problem.targets))
     share = fit.loss / level
     steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
-    down = fit.loss <= down_to(problem.records) * noise
+    down = is_down_to_noise(problem.records, fit.loss, noise)
     good = explains(problem, fit.loss, noise)
     left = [] if fit.loss <= noise else list(_left(fit))
     if down:
@@ -145,7 +145,7 @@ def explains(problem: Problem, loss: float, noise: float) -> bool:
     if problem.loss is not LOSSES["nrmse"]:
         return True
     small = loss <= SMALL * np.sqrt(len(problem.targets))
-    return bool(np.isfinite(loss) and (small or loss <= down_to(problem.records) * noise))
+    return bool(np.isfinite(loss) and (small or is_down_to_noise(problem.records, loss, noise)))
 
 
 def _all_taken(problem: Problem) -> Iterator[str]:

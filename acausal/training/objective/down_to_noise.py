@@ -19,6 +19,11 @@ SURE = 3.3
 at most 2 %, and in fewer of longer ones."""
 
 
+def is_down_to_noise(records: Records, loss: float, noise: float) -> bool:
+    """Whether a loss over records is down to that of their noise, `noise_loss`."""
+    return bool(loss <= down_to(records) * noise)
+
+
 def down_to(records: Records) -> float:
     """The largest ratio of a loss over records to that of their noise, `noise_loss`, that is still down to the noise.
 
