@@ -648,10 +648,10 @@ class System(LeavesCaches):
         flat, sources = opened(self.flat, points)
         return _derived(self.model, flat), sources
 
-    def modes(self, values: Values) -> Values:
+    def modes(self, values: Values, *, ticks: bool = True) -> Values:
         """The same values with the discrete variables that agree with them, found from these or from their own starts.
 
-        States that jump at once have done so.
+        States that jump at once have done so; what is due at this time has happened, as a clock's tick, if it ``ticks``.
         """
         if self.events is None:
             return values
@@ -659,7 +659,7 @@ class System(LeavesCaches):
         d = self.initializer.discrete_starts(values.packed) if d is None else d
         assert d is not None
         start = values._replace(t=t, d=d.astype(x.dtype))
-        return start_of(self.events, start, lambda d: x, self.describe_discrete)
+        return start_of(self.events, start, lambda d: x, self.describe_discrete, ticks=ticks)
 
     def in_modes(self, values: Values) -> Values:
         """The same values with these discrete variables; states stay as they are, even if they jump at once."""

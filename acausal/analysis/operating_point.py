@@ -116,7 +116,7 @@ def operating_point(
     system.warn_of_sampled("operating_point")
     found = system.initialize(packed, x0, inputs=u, t0=t, steady=steady)
     begun = system.initializer.discrete_starts(packed, x0)
-    at = system.modes(system.values(t, found.x, u, packed)._replace(d=begun))
+    at = system.modes(system.values(t, found.x, u, packed)._replace(d=begun), ticks=False)
     if system.events is not None:
         given = {} if x0 is None else system.initializer.by_state(x0)
         resting = system.states if steady is True else names_in(steady or (), "steady")

@@ -45,10 +45,10 @@ def _begun(events: Events, at: Values) -> Float[Array, " n_discrete"]:
 
 
 @compiled
-def _fire_at_start(events: Events, at: Values, differentiable: bool) -> After:
+def _fire_at_start(events: Events, at: Values, differentiable: bool, ticks: bool) -> After:
     """What happens at the first time, once initial values are found; on demand with derivatives in both modes.
 
-    A condition whose time it is, but for rounding, has changed.
+    A condition whose time it is, but for rounding, has changed if it ``ticks``; else it is what it was.
     """
     fixed = without_derivatives(at)
     band, forced = -jnp.ones(events.n_guards, at.x.dtype), None
@@ -57,7 +57,9 @@ def _fire_at_start(events: Events, at: Values, differentiable: bool) -> After:
         apart = coincide(at.x.dtype) * jnp.abs(fixed.t)
         near = jnp.abs(when.t - fixed.t) <= apart
         band = jnp.where(near, 2 * apart * jnp.abs(when.rate), band)
-        forced = (when.rate > 0).astype(at.x.dtype)
+        assert fixed.d is not None
+        forced = when.rate > 0 if ticks else fixed.d[: events.n_guards]
+        forced = forced.astype(at.x.dtype)
     after = fire(events, fixed, band, forced=forced, keep=differentiable)
     if not differentiable:
         return after
@@ -124,6 +126,8 @@ def start_of(
     start: Values,
     initial_state: Callable[[Array], Float[Array, " n_states"]],
     describe: Callable[[int], str],
+    *,
+    ticks: bool = True,
 ) -> Values:
     """Initial values with the discrete variables that belong to them, behind the events at the first time.
 
@@ -133,13 +137,14 @@ def start_of(
             they are looked for.
         initial_state: finds the states for given discrete variables.
         describe: names the discrete variable at a place.
+        ticks: whether what is due at the first time happens, as the tick of a clock.
 
     Raises:
         InitializationError: if no discrete variables agree with the initial values.
     """
     x, d = before_events(events, start, initial_state, describe)
     at = start._replace(x=x, d=d)
-    after = _fire_at_start(events, at, traced(at))
+    after = _fire_at_start(events, at, traced(at), ticks)
     if (converged := known(after.converged)) is not None and not bool(converged):
         raise _no_start(map(describe, non_converged(events, at)))
     return start._replace(x=after.x, d=after.d)

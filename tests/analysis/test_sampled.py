@@ -36,6 +36,14 @@ def test_what_a_sampled_law_takes_is_named() -> None:
             derived()
 
 
+@pytest.mark.filterwarnings("ignore:operating_point")
+def test_a_rest_is_one_before_the_clock_ticks() -> None:
+    system = ac.compile(Sampled())
+    for t in (0.0, 0.1):  # it ticks at 0.1 s
+        point = ac.operating_point(system, x0={"u": 0.5}, t=t)
+        assert (point["x"], point["u"]) == (pytest.approx(0.5), 0.5)
+
+
 def test_clocks_that_follow_nothing_are_silent() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
