@@ -4,7 +4,7 @@
 #   make test PYTEST_ARGS="-n 0 -x -k spring"     arguments for pytest
 #   make test PYTHON=python3.13                   the interpreter to build .venv with
 #   make test-newest SAMPLE=--sample              one file of tests a room
-#   make test-slow SAMPLE=--sample                one of three slow tests a file
+#   make test-slow SAMPLE=--sample                one of eight slow tests, others after each change
 #   make lock LOCK_ARGS=--upgrade                 newer versions of everything
 
 VENV := .venv

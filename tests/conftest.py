@@ -5,6 +5,7 @@ import os
 import shutil
 import sys
 import tempfile
+import zlib
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -46,15 +47,13 @@ def maps() -> int:
         return MAPS + 1
 
 
-ONE_OF = 3
-"""Of the slow tests of a file so many-th are in a sample, the first one among them."""
+ONE_OF = 8
+"""Of the slow tests every so many-th is in a sample: others after each change, so that all have their turn."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """An option for fewer slow tests."""
-    parser.addoption(
-        "--sample", action="store_true", help=f"of the slow tests of each file, one of {ONE_OF}"
-    )
+    parser.addoption("--sample", action="store_true", help=f"of the slow tests one of {ONE_OF}")
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -68,12 +67,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def beside_sample(items: Iterable[pytest.Item]) -> list[pytest.Item]:
-    """The slow tests that are not in the sample."""
-    files = defaultdict[Path, list[pytest.Item]](list)
-    for item in items:
-        if tier(item) == "slow":
-            files[item.path].append(item)
-    return [item for own in files.values() for i, item in enumerate(own) if i % ONE_OF]
+    """The slow tests that are not in the sample; which ones are follows from the list of changes."""
+    changes = Path(__file__).parent.parent / "CHANGELOG.md"
+    turn = zlib.crc32(changes.read_bytes())
+    slow = [item for item in items if tier(item) == "slow"]
+    return [item for i, item in enumerate(slow, start=turn) if i % ONE_OF]
 
 
 def by_cases(items: Iterable[pytest.Item]) -> None:

@@ -96,6 +96,7 @@ def test_sympy_is_asked_as_often_whatever_the_size(pair, counts):
     assert more < 100 * (unknowns[1] - unknowns[0])
 
 
+@pytest.mark.slow
 def test_python_calls_grow_in_proportion_to_the_model():
     sizes = (50, 50, 100, 200)  # the first fills caches
     called = [measure.calls(chain.CASE, n)["calls"] for n in sizes]
@@ -126,6 +127,7 @@ def test_all_take_the_same_gradient_of_the_quarter_vehicle(ride, count, length):
             assert by == pytest.approx(expected, abs=1e-10 * abs(expected).max())
 
 
+@pytest.mark.slow
 def test_exported_steps_are_those_written_by_hand(ride, tmp_path):
     asked = task.task("", *ride, 1, 300)
     try:
@@ -145,6 +147,7 @@ def test_an_observer_steps_in_python_and_in_c(tmp_path):
     assert seen.t == pytest.approx(1e-3 * observer.CALLS)
 
 
+@pytest.mark.slow
 def test_a_sweep_finds_what_single_simulations_find():
     system, steps = ac.compile(with_networks()), 30
     many = sweep.variants(system, 11, steps)
@@ -155,6 +158,7 @@ def test_a_sweep_finds_what_single_simulations_find():
     assert len(np.unique(together)) == 11
 
 
+@pytest.mark.cases(fast=1, slow=5)
 @pytest.mark.parametrize("name", [*optimizers.QUASI_NEWTON, *optimizers.GAUSS_NEWTON])
 def test_all_optimizers_find_a_minimum(name):
     method = {**optimizers.QUASI_NEWTON, **optimizers.GAUSS_NEWTON}[name]

@@ -103,6 +103,7 @@ class Counter(ac.Component):
         yield ac.When(ac.sample(0.5, 1.0), ac.Eq(self.n, ac.pre(self.n) + 1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("again", COPIES)
 def test_a_copied_system_knows_values_before_events(again):
     system = again(ac.compile(Counter()))
@@ -110,6 +111,7 @@ def test_a_copied_system_knows_values_before_events(again):
     assert ac.compile(again(system.model)).remembered == ("n",)
 
 
+@pytest.mark.slow
 def test_a_copied_system_with_a_sparse_loop(monkeypatch):
     monkeypatch.setattr(blocks, "LARGE", 4)
     monkeypatch.setattr(blocks, "WRITTEN", 4)

@@ -79,7 +79,7 @@ LONGER = (
 """Examples that take longest: the same elements as in the others, more of them."""
 
 
-@pytest.mark.cases(fast=2, slow=3)
+@pytest.mark.cases(fast=1, slow=4)
 @pytest.mark.parametrize("name", some_slow(NETLISTS, LONG, LONGER))
 def test_oracle(name: str, record_property: Any) -> None:
     errors = compare(name, rtol=1e-8, atol=1e-10)

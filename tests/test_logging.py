@@ -12,6 +12,7 @@ from tests.support.oscillator import Oscillator, plain, record
 from tests.support.paths import ROOT
 
 
+@pytest.mark.slow
 def test_it_is_quiet_by_default() -> None:
     code = (
         "import logging, acausal as ac\nfrom tests.support.oscillator import Oscillator\n"

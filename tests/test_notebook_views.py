@@ -115,6 +115,7 @@ def test_a_solution_shows_what_was_simulated(system: ac.System) -> None:
     assert text.count("<svg") == 3
 
 
+@pytest.mark.slow
 def test_a_solution_with_events_shows_both_sides() -> None:
     class Relay(ac.Component):
         x = ac.Variable(start=1.0, fixed=True)

@@ -63,7 +63,7 @@ def test_oracles_are_there() -> None:
     assert len(NETLISTS) >= 25
 
 
-@pytest.mark.cases(fast=6, slow=8)
+@pytest.mark.cases(fast=2, slow=12)
 @pytest.mark.parametrize("name", some_slow(NETLISTS, LONG))
 def test_oracle(name: str, record_property: Any) -> None:
     model = ac.load(FOLDER / f"{name}.json")

@@ -206,6 +206,7 @@ def test_the_version_stands_in_one_place(wheel: Path) -> None:
         assert VERSION not in (ROOT / name).read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_links_are_left_out_until_they_are_set(tree: Path, wheel: Path, tmp_path: Path) -> None:
     assert links(wheel) == []
     shutil.copytree(tree, tmp_path / "tree", symlinks=True)

@@ -126,6 +126,7 @@ def test_the_page_lists_the_exit_codes() -> None:
     assert table == {str(code): meaning for code, meaning in EXIT_CODES.items()}
 
 
+@pytest.mark.slow
 def test_what_is_skipped_for_a_reason_that_is_not_listed_fails(tmp_path: Path) -> None:
     (tmp_path / "test_all.py").write_text(
         "import pytest\n"
@@ -163,6 +164,7 @@ def test_what_is_built_is_not_in_the_repository() -> None:
     assert [name for name in listed.stdout.split("\0") if Path(name).suffix in built] == []
 
 
+@pytest.mark.slow
 def test_a_sample_has_one_of_three_slow_tests_a_file(tmp_path: Path) -> None:
     for name in "ab":
         slow = "".join(f"def test_{i}(): pass\n" for i in range(4))

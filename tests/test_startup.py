@@ -35,6 +35,7 @@ def test_declaring_needs_sympy_alone():
     assert loaded("import acausal as ac\nclass A(ac.Component): x = ac.Variable()") == ["sympy"]
 
 
+@pytest.mark.slow
 def test_simulating_needs_nothing_for_training_or_drawing():
     found = loaded("import acausal as ac; ac.compile, ac.simulate")
     assert not {"matplotlib", "networkx", "optax", "pandas", "rich"}.intersection(found)
@@ -48,6 +49,7 @@ def test_packages_of_the_library_are_completed_before_their_import():
     )
 
 
+@pytest.mark.slow
 def test_single_precision_of_the_environment_is_kept_and_refused_with_a_sentence():
     code = """import os; os.environ['JAX_ENABLE_X64'] = '0'
 import acausal as ac
@@ -84,6 +86,7 @@ def test_an_unknown_name_is_an_attribute_error():
         _ = ac.nonsense
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("first", ["ac.export.modelica", "ac.use_compilation_cache(None)"])
 def test_any_name_may_be_the_first_that_needs_jax(first: str):
     assert "jax" in loaded(f"import acausal as ac; {first}")

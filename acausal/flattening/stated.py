@@ -374,7 +374,7 @@ class _Sorting:
 
     def _tick(self, tick: Tick) -> Any:
         if tick not in self.known:
-            r, count = self._new("bool"), self._new("int")
+            r, count = self._new("bool"), self._new("int", unit="1")
             now = self.known[tick] = self._new("bool")
             due = time - (tick.start + Previous(count) * tick.period)
             self.guards.append(GuardStatement(r, due, str(tick), strict=False, ticks=True))
@@ -391,9 +391,9 @@ class _Sorting:
             self.updates[now] = UpdateStatement(now, sp.Piecewise((1, just), (0, True)), str(tick))
         return self.known[tick]
 
-    def _new(self, kind: Any, meaning: Any = None) -> Reference:
+    def _new(self, kind: Any, meaning: Any = None, unit: str = "") -> Reference:
         """A hidden variable; what it means is for messages."""
-        declaration = Discrete(0, kind=kind)
+        declaration = Discrete(0, kind=kind, unit=unit)
         declaration.meaning = meaning
         path = f"{HIDDEN}[{len(self.hidden) + 1}]"
         declaration.name = path

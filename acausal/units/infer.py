@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -187,8 +188,11 @@ def _alike(walk: _Walk, expression: Any) -> Dimension | None:
 def _sum(walk: _Walk, expression: Any) -> Dimension | None:
     """A sum; temperatures on two scales are added only as differences on each, or beside a number such as 273.15.
 
-    Where a term is neither, such as a product, the scales are not compared.
+    Where a term is neither, such as a product, the scales are not compared. A bracket's factor may have a dimension, and
+    has been multiplied out, as in ``3*x - 3*y``: what has equal factors and one dimension is compared as in the bracket.
     """
+    for bracket in _multiplied_out(walk, expression):
+        _sum(walk, bracket)
     found = walk.common(expression.args, are_summed=True)
     found = None if found is None else replace(found, zero=None)
     terms: dict[float, list[tuple[Any, Any, Dimension]]] = {}
@@ -202,6 +206,17 @@ def _sum(walk: _Walk, expression: Any) -> Dimension | None:
         (_, *first), (_, *other) = (same[0] for same in [*terms.values()][:2])
         raise _apart(*first, *other)
     return found
+
+
+def _multiplied_out(walk: _Walk, expression: Any) -> Iterator[Any]:
+    """The brackets, each with terms of one dimension, whose factors sympy has multiplied out."""
+    brackets = defaultdict[Any, list[Any]](list)
+    for part in expression.args:
+        factor, term = part.as_coeff_Mul()
+        here = None if abs(factor) == 1 else walk.of(term)
+        if here is not None:
+            brackets[abs(factor), here.exponents].append(sp.sign(factor) * term)
+    return (sp.Add(*terms) for terms in brackets.values() if len(terms) > 1)
 
 
 def _parts(walk: _Walk, expression: Any) -> None:

@@ -52,7 +52,7 @@ def test_the_vehicle_and_its_gradient_are_near_those_in_double_precision(vehicle
             np.testing.assert_allclose(own, wanted, atol=1e-3 * float(jnp.max(jnp.abs(wanted))))
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize(
     "choice",
     [

@@ -61,6 +61,7 @@ def test_called_jaxprs_are_found(function: Callable[..., jax.Array]) -> None:
         assert len(primitives.called(call).jaxpr.invars) == len(call.invars)
 
 
+@pytest.mark.slow
 def test_the_steps_of_a_model_need_no_detour(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every operation of a batch of simulations and of its gradient has a rule."""
     detours: list[str] = []
@@ -146,6 +147,7 @@ def test_where_jaxprs_are_not_understood_functions_are_mapped_by_jax() -> None:
         np.testing.assert_allclose(own, wanted, rtol=1e-12)
 
 
+@pytest.mark.cases(fast=1, slow=4)
 @pytest.mark.usefixtures("changed")
 def test_simulations_and_gradients_stay_the_same() -> None:
     force = jnp.sin(jnp.arange(8.0))

@@ -54,6 +54,7 @@ def test_a_program_that_is_compiled_ahead_is_compiled_once() -> None:
     assert names.count("jit(scaled)") == 1
 
 
+@pytest.mark.slow
 def test_the_steps_of_a_model_with_events_are_compiled_once_while_its_start_is_found() -> None:
     class Falls(ac.Component):
         h = ac.Variable(start=1.0, fixed=True)

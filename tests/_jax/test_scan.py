@@ -56,6 +56,7 @@ def test_it_repeats_a_step():
     assert_same(run)
 
 
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("by", [(0, 1, 2, 3), (0,), (2,), (3,)])
 def test_its_gradient_by_anything(by):
     assert_same(lambda f: jax.grad(partial(loss, f), by)(MATRIX, GAIN, X0, US))
@@ -75,6 +76,7 @@ def test_a_step_may_close_over_what_is_differentiated():
     assert_same(lambda f: jax.grad(partial(total, f))(GAIN))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1, 3, 8, 19])
 def test_mapped_gradients(size):
     rng = np.random.default_rng(size)
@@ -86,11 +88,13 @@ def test_mapped_gradients(size):
     assert_same(lambda f: jax.value_and_grad(partial(mean, f), (0, 1, 2, 3))(MATRIX, GAIN, x0s, us))
 
 
+@pytest.mark.slow
 def test_gradients_for_many_constants():
     matrices = jnp.asarray(np.random.default_rng(3).standard_normal((9, 3, 3)))
     assert_same(lambda f: jax.vmap(jax.grad(partial(loss, f), (0, 1)), (0, None))(matrices, GAIN))
 
 
+@pytest.mark.slow
 def test_second_derivatives():
     assert_same(lambda f: jax.jacrev(jax.grad(partial(loss, f), 2), 2)(MATRIX, GAIN, X0))
 
@@ -100,6 +104,7 @@ def bounded(x):
     return jnp.stack([-5.0, 0.5]) * (x - lax.stop_gradient(x)) + lax.stop_gradient(jnp.tanh(x))
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize(("n", "is_right"), [(20, True), (30, False)])
 def test_derivatives_that_explode_are_nan(n, is_right):
     """In any units; where they have not exploded, they stay as they are, also beside one that has."""
@@ -152,6 +157,7 @@ def test_what_calls_a_library_is_left_to_jax():
         assert_same(lambda f, g=other: jax.jacfwd(lambda x: f(g, GAIN, x, US)[1])(X0))
 
 
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize(
     ("interpolation", "dt"),
     [("linear", 0.5), ("previous", 0.25), ("cubic", 0.2), ("band-limited", 0.1)],

@@ -22,6 +22,7 @@ def friction(v: Any) -> Any:
     return 824.36 * v * jnp.exp(-1250 * v**2) + 30 * jnp.tanh(500 * v) + 150 * v
 
 
+@pytest.mark.cases(fast=1, slow=5)
 @pytest.mark.parametrize(
     ("law", "interval", "terms", "derivatives"),
     [
@@ -44,6 +45,7 @@ def test_laws_of_physics_are_found_again(law, interval, terms, derivatives):
         )
 
 
+@pytest.mark.slow
 def test_formula_expression_and_search_agree():
     points = np.linspace(-1.5, 1.5, 7)
     for name in TERMS:
@@ -90,6 +92,7 @@ def test_a_formula_takes_the_place_of_a_network():
     assert float(solution["mass.v"][-1]) == pytest.approx(np.exp(-2.0), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_law_of_an_energy_is_distilled():
     element = neural.Compliance(energy=True, input_scale=0.1, output_scale=10.0)
 

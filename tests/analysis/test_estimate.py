@@ -84,6 +84,7 @@ def by_hand(data: ac.Data) -> tuple[np.ndarray, ...]:
     return np.array(means), np.array(covariances), np.array(likelihood), later, spread
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["ekf", "ukf"])
 def test_linear_models_have_the_estimates_of_the_kalman_filter_and_smoother(method):
     data = record()
@@ -103,6 +104,7 @@ def test_linear_models_have_the_estimates_of_the_kalman_filter_and_smoother(meth
     assert np.isnan(found.innovations["mass.s"][:2]).tolist() == [True, False]
 
 
+@pytest.mark.slow
 def test_the_order_of_sensors_changes_nothing_and_an_ensemble_is_near():
     data = record()
     found = ac.estimate(plain(), data, **GIVEN)
@@ -125,6 +127,7 @@ class Lag(ac.Component):
         yield ac.Eq(ac.der(self.x), self.u - self.x)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("h", [0.2, 5.0])
 def test_noise_means_the_same_however_far_samples_are_apart(h: float):
     """White noise of density q² on a lag of T has the variance q² T / 2."""
@@ -134,6 +137,7 @@ def test_noise_means_the_same_however_far_samples_are_apart(h: float):
     assert float(found.deviation("x")[-1]) == pytest.approx(np.sqrt(0.5), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_noise_gathers_as_the_integral_says():
     A = np.array([[0.0, 1.0], [-4.0, -0.3]])
     found = gathered_in_steps(jnp.asarray(3 * A), jnp.array([0.1, 0.4]), 14)
@@ -143,6 +147,7 @@ def test_noise_gathers_as_the_integral_says():
     np.testing.assert_allclose(unstable, np.eye(2))
 
 
+@pytest.mark.slow
 def test_two_rows_are_enough_and_what_is_no_number_changes_no_observer():
     lag = ac.compile(Lag())
     data = ac.Data([0.0, 1.0], {"x": [0.0, 0.1], "u": [0.0, 0.0]})
@@ -186,6 +191,7 @@ def test_the_gradient_of_the_likelihood_is_that_of_differences():
     assert slope == pytest.approx(wanted, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_an_observer_steps_as_the_estimate_does():
     whole = record()
     with_pause = np.r_[0:20, 35 : len(whole)]
@@ -213,6 +219,7 @@ def test_an_observer_steps_as_the_estimate_does():
         seen.step(1e9)
 
 
+@pytest.mark.slow
 def test_late_measurements_count_as_if_they_had_come_in_time():
     """One comes at the time of a step, one between two; inputs then are on the line between those of the steps."""
     given = {k: v for k, v in GIVEN.items() if k not in ("sensors", "noise")}
@@ -255,6 +262,7 @@ class Swing:
         return jnp.diag(sigma**2)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("line", [by_derivatives, by_points])
 def test_filters_are_consistent_over_many_runs(line):
     """Normalized errors of states (NEES) and innovations (NIS) of 200 runs are within their chi-square bounds."""
@@ -301,6 +309,7 @@ class Pendulum(ac.Component):
         yield ac.Eq(self.x, self.length * ac.sin(self.phi))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["ekf", "ukf"])
 def test_states_and_a_parameter_of_a_pendulum_are_found(method):
     system = ac.compile(Pendulum(), check_units=False)
@@ -395,6 +404,7 @@ class Hardening(ac.Component):
         yield ac.Eq(ac.der(self.v), self.u - law)
 
 
+@pytest.mark.slow
 def test_the_unit_of_a_state_does_not_matter() -> None:
     """Pressures of 1e7 Pa are known at the start as displacements of 1 m are."""
     system, t = ac.compile(Hardening()), np.linspace(0, 5, 101)

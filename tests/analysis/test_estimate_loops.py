@@ -28,7 +28,7 @@ class Implicit(ac.Component):
             yield ac.Eq(self.z + self.z**3, 2 * self.x)
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("method", ["ekf", "ukf", "mhe"])
 def test_an_implicit_equation_is_solved_as_its_formula_is(method):
     t = 0.05 * np.arange(80)

@@ -91,6 +91,7 @@ def estimate(system: ac.System, y: np.ndarray, method: str) -> ac.Estimation:
     )  # fmt: skip
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize(("method", "line"), [("ekf", tangent), ("ukf", cubature)])
 def test_a_pendulum_with_a_drifting_length_is_estimated_as_by_hand(method, line):
     rng = np.random.default_rng(0)

@@ -148,6 +148,7 @@ def test_inputs_are_functions_of_time_or_an_array() -> None:
     np.testing.assert_array_equal(by_name.u, ac.linearize(system, inputs=[3.0], t=1.5).u)
 
 
+@pytest.mark.slow
 def test_a_model_is_linearized_at_rest() -> None:
     system = ac.compile(Oscillator())
     linear = ac.linearize(system, "steady", inputs={"drive.f": 10.0})
@@ -241,6 +242,7 @@ def test_wrong_weights_are_refused(linearized: ac.Linearization) -> None:
         linearized.kalman({"mass.v": 1.0}, {"mass.s": -1.0})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closed", [0.0, 1.0])
 def test_a_switch_is_as_its_input_says(closed: float) -> None:
     circuit = ac.Component()

@@ -13,7 +13,7 @@ from tests.analysis.test_estimate import GIVEN, N, Pendulum, by_hand, record
 from tests.support.oscillator import plain
 
 
-@pytest.mark.cases(fast=1, slow=2)
+@pytest.mark.cases(fast=0, slow=3)
 @pytest.mark.parametrize("window", [N, 2])
 def test_of_a_linear_model_any_window_gives_the_kalman_filter_and_smoother(window):
     data = record()

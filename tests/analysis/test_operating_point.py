@@ -65,6 +65,7 @@ def test_other_parameters_have_another_point(system: ac.System) -> None:
     assert float(linear.A[system.states.index("l.i"), system.states.index("l.i")]) == -1000.0
 
 
+@pytest.mark.slow
 def test_a_point_that_does_not_exist_is_told(system: ac.System) -> None:
     with pytest.raises(ac.InitializationError):
         ac.operating_point(system, inputs={"source.v": 12.0})
@@ -141,6 +142,7 @@ def test_a_model_whose_modes_contradict_its_rest_is_refused():
             rest()
 
 
+@pytest.mark.slow
 def test_a_transistor_comes_to_rest_where_newton_alone_does_not_find_it() -> None:
     made = model(
         "supply.p - above.p", "supply.p - collector.p", "above.n - below.p", "above.n - T.B",
@@ -191,6 +193,7 @@ def test_the_rest_is_looked_for_in_the_branch_of_the_start(low: float) -> None:
     np.testing.assert_allclose(system.vector_field(0.0, [0.5], None, system.parameters()), [low])
 
 
+@pytest.mark.slow
 def test_a_friction_that_yields_is_no_rest() -> None:
     class Pushed(ac.Component):
         """A mass on a rough floor and a spring, pushed by more than the floor holds."""

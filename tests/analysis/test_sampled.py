@@ -25,6 +25,7 @@ class Sampled(ac.Component):
         yield ac.When(ac.sample(0.1, 0.1), ac.Eq(self.u, ac.pre(self.u) + 0.2 * error))
 
 
+@pytest.mark.slow
 def test_what_a_sampled_law_takes_is_named() -> None:
     system = ac.compile(Sampled())
     for derived in (

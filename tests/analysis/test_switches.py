@@ -37,6 +37,7 @@ def test_what_switches_depend_on():
     assert in_switches(ac.compile(Whole())) == {"part.limit", "part.step", "height"}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:The trained model is no better")
 def test_a_switch_is_told_where_training_moves_nothing():
     data = ac.Data(np.linspace(0, 1, 11), {"x": np.linspace(0, 1, 11) ** 2})

@@ -14,6 +14,7 @@ def plain(residual):
     return lambda z: (z, residual(z))
 
 
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("n", some_slow([1, 2, 3, FEW, FEW + 1], [FEW]))
 def test_linear(n):
     rng = np.random.default_rng(n)
@@ -24,6 +25,7 @@ def test_linear(n):
     np.testing.assert_allclose(ours, theirs, rtol=1e-8, atol=1e-10)
 
 
+@pytest.mark.cases(fast=1, slow=7)
 @pytest.mark.parametrize(
     ("residual", "guess", "root"),
     [
@@ -42,6 +44,7 @@ def test_nonlinear(residual, guess, root):
     np.testing.assert_allclose(found, [root], rtol=1e-8, atol=1e-7)
 
 
+@pytest.mark.slow
 def test_several_unknowns():
     def residual(z):
         return jnp.array([z[0] ** 2 + z[1] ** 2 - 4, z[0] * z[1] - 1])
@@ -58,6 +61,7 @@ def test_without_a_root_the_result_is_nan(residual):
     assert np.isnan(found).all()
 
 
+@pytest.mark.slow
 def test_equations_that_contradict_each_other_have_no_solution():
     def solve(b):
         twice = plain(lambda z: jnp.ones((2, 2)) @ z - b)
@@ -67,6 +71,7 @@ def test_equations_that_contradict_each_other_have_no_solution():
     assert np.isnan(solve(jnp.array([3.0, 3.001]))).all()
 
 
+@pytest.mark.slow
 def test_gradients_of_first_and_second_order():
     def root(p):  # z + exp(z) = p
         return solve_block(plain(lambda z: z + jnp.exp(z) - p), jnp.zeros(1))[0]

@@ -27,6 +27,7 @@ def expected(pairs):
     return [float(jnp.atleast_1d(ARRAYS[s])[i]) for s, i in pairs]
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(places)
 def test_elements_are_read_whatever_their_order(pairs):

@@ -99,6 +99,7 @@ def ladder(n):
     return made
 
 
+@pytest.mark.slow
 def test_the_program_of_equal_loops_does_not_grow():
     few, many = (jaxpr(ac.compile(ladder(n))).jaxpr for n in (3, 60))
     assert count(few) == count(many)
@@ -145,6 +146,7 @@ def test_what_it_computes(small):
     np.testing.assert_allclose(values, [0.45, 2.1, -2.1, 2.1])
 
 
+@pytest.mark.slow
 def test_jit_vmap_and_grad_agree_with_the_plain_program(small):
     rng = np.random.default_rng(0)
     xs, us = jnp.asarray(rng.normal(size=(4, 2))), jnp.asarray(rng.normal(size=(4, 1)))
@@ -242,6 +244,7 @@ def behaviour(order, turned=()):
     return values
 
 
+@pytest.mark.slow
 def test_the_order_of_declaration_changes_nothing():
     expected = behaviour(NAMES)
     for i in range(3):

@@ -220,6 +220,7 @@ def test_alike_modules_are_stacked_unlike_ones_are_not():
         assert call(value, (1,), jnp.array([2.0, 3.0])).tolist()[0] == 12.0
 
 
+@pytest.mark.slow
 def test_modules_with_plain_functions_inside():
     make = lambda seed: eqx.nn.MLP("scalar", "scalar", 4, 1, key=jax.random.key(seed))  # noqa: E731
     nets = [make(0), make(1)]

@@ -54,6 +54,7 @@ def test_no_root_is_told():
     assert not bool(arrived)
 
 
+@pytest.mark.slow
 def test_a_small_unknown_beside_a_large_number():
     """Between two rounded values of their sum a slope of 1e-5 is left: 300 steps along it led nowhere."""
     evaluated = itertools.count()
@@ -86,6 +87,7 @@ def test_side_by_side():
     np.testing.assert_allclose(z, [[5, 4], [5, 4]], rtol=1e-6)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("guess", [0.0, 1e-3])
 def test_a_small_difference_that_is_amplified(guess):
     """The step is as small as a rounding beside the current, and volts in what is computed from it."""

@@ -60,6 +60,7 @@ def test_the_place_of_a_breakdown(part, steps, sentence):
         ac.simulate(system, (0.0, 3.0), **steps)
 
 
+@pytest.mark.slow
 def test_a_loop_without_a_solution_at_the_start():
     component = Equations(
         "x y", lambda s: [Eq(der(s.x), s.y), Eq(ac.exp(s.y) + s.y**2, s.p - s.x)], p=-1.0

@@ -245,6 +245,7 @@ class Chain(ac.Component):
         self.parts = parts
 
 
+@pytest.mark.slow
 def test_a_long_chain_of_bound_parameters_is_packed_in_linear_time():
     system = ac.compile(Chain(400))
     values = system.pack().values

@@ -75,6 +75,7 @@ def test_batches(system, axes):
     close(*(jax.jit(jax.vmap(solve, axes))(*batch) for solve in (matrix.solve, dense)))
 
 
+@pytest.mark.slow
 def test_batches_of_batches(system):
     matrix, entries, b, dense = system
     each = jnp.arange(1.0, 4.0)[:, None]

@@ -34,6 +34,7 @@ def case(request):
     return system, field, n_colors
 
 
+@pytest.mark.cases(fast=1, slow=4)
 def test_entries_are_those_of_the_dense_jacobian(case):
     system, field, n_colors = case
     jacobian, packed = system.state_jacobian, system.pack()
@@ -175,6 +176,7 @@ def test_states_and_unknowns_are_found_together(monkeypatch):
     np.testing.assert_allclose(*run(x), rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_equal_loops_are_opened_side_by_side(monkeypatch):
     open_always(monkeypatch)
     system = ac.compile(Ladder(6, DiodeAndResistor))

@@ -63,6 +63,7 @@ def test_there_are_fewer_operations_than_formulas(systems):
     assert not any(isinstance(i, UnlikeFormulas) for i in systems[1].program.instructions)
 
 
+@pytest.mark.slow
 def test_values_and_derivatives_are_those_of_the_formulas(systems):
     both = [jax.jit(jax.vmap(jax.jacrev(rates, (1, 2)), (None, 0, None)), static_argnums=0)] * 2
     points = jnp.asarray([[0.4, -0.3], [0.01, 0.5]])  # both cases of a condition
@@ -72,6 +73,7 @@ def test_values_and_derivatives_are_those_of_the_formulas(systems):
     np.testing.assert_allclose(*values, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_people_read_formulas(systems):
     assert systems[0].equations == systems[1].equations
     with pytest.raises(ac.SimulationError, match=r"'y5' = .*log\(b \+ x\).* is nan"):

@@ -91,6 +91,7 @@ def shell(*words: str, cwd: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=cwd, env=env, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.slow
 def test_in_a_shell(folder: Path) -> None:
     done = shell("check", "oscillator.jsn", cwd=folder)
     assert done.returncode == 3
@@ -334,6 +335,7 @@ def test_parts_that_cannot_be_replaced(typed, other: str, sentence: str) -> None
 # -- simulation ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_simulate(typed, folder: Path) -> None:
     code, out, _ = typed(
         "simulate",
@@ -357,6 +359,7 @@ def test_simulate(typed, folder: Path) -> None:
     assert [row[0] for row in rows[1:]] == ["0.0", "0.5", "1.0", "1.5", "2.0"]
 
 
+@pytest.mark.slow
 def test_simulate_for_programs(typed, folder: Path) -> None:
     pytest.importorskip("matplotlib")
     (folder / "push.csv").write_text("time,push.f\n0,0\n1,1\n2,0\n")
@@ -371,6 +374,7 @@ def test_simulate_for_programs(typed, folder: Path) -> None:
     assert (folder / "run.svg").read_text().startswith("<?xml")
 
 
+@pytest.mark.slow
 def test_simulate_into_a_pipe(typed) -> None:
     code, out, _ = typed("simulate", "oscillator.json", *PUSH, "--points", "2", "--out", "-")
     assert code == 0

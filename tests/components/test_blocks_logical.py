@@ -204,6 +204,7 @@ TABLE = [[0, 1, 10], [1, 3, 20], [3, 3, 40]]
 GRID = [[0, 0, 1, 3], [0, 1, 2, 3], [2, 5, 6, 7]]
 
 
+@pytest.mark.slow
 def test_tables_of_one_argument():
     values = Values(
         one=blocks.CombiTable1Ds(table=TABLE), two=blocks.CombiTable1Dv(table=TABLE),
@@ -220,6 +221,7 @@ def test_tables_of_one_argument():
     assert values(0.5)["step.y[1]"] == 1
 
 
+@pytest.mark.slow
 def test_tables_of_two_arguments():
     values = Values(
         plane=blocks.CombiTable2Ds(table=GRID), pair=blocks.CombiTable2Dv(n=1, table=GRID),

@@ -25,6 +25,7 @@ def test_equations_are_on_the_page() -> None:
     assert "f = c*(s_rel - s_rel0) + d*v_rel" in page
 
 
+@pytest.mark.cases(fast=1, slow=11)
 @pytest.mark.parametrize("package", SCRIPT.packages())
 def test_every_public_class_is_on_its_page_with_its_law_and_parameters(package: str) -> None:
     page = DOCS / "components" / f"{package}.md"

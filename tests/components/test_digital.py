@@ -50,7 +50,7 @@ class Gates(ac.Component):
                 self.connect(value.y, made.x[i])
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("gate", GATES)
 def test_gates_follow_their_tables(gate: type) -> None:
     end = ac.simulate(ac.compile(Gates(gate)), 1.0, saveat=[1.0])
@@ -71,6 +71,7 @@ class Inverters(ac.Component):
             self.connect(value.y, made.x)
 
 
+@pytest.mark.slow
 def test_an_inverter_follows_its_table() -> None:
     end = ac.simulate(ac.compile(Inverters()), 1.0, saveat=[1.0])
     found = [VALUES[int(end[f"inverse[{k + 1}].y"][0]) - 1] for k in range(9)]
@@ -92,7 +93,7 @@ class Latch(ac.Component):
         self.connect(self.first.y, self.second.x[1])
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize(
     ("gate", "active", "quiet"), [(dg.Nand, "'0'", "'1'"), (dg.Nor, "'1'", "'0'")]
 )
@@ -184,6 +185,7 @@ class Sources(ac.Component):
         self.connect(self.back.y[0], self.number.x[0])
 
 
+@pytest.mark.slow
 def test_sources_change_at_their_times() -> None:
     ts = np.arange(0.05, 3, 0.1)
     found = ac.simulate(ac.compile(Sources()), (0.0, 3.0), saveat=ts)

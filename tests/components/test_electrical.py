@@ -1103,6 +1103,7 @@ def test_a_frequency_may_be_a_signal(bench):
     assert np.allclose(bench["chirp.v"], (2 + bench.t) * np.sin(np.pi * bench.t**2), atol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_saturation_current_is_differentiable():
     """The parameter that scales the saturation follows from the others to 1e-8."""
     model = circuit("l.p l.n ground.p", l=el.SaturatingInductor(Inom=3, Lnom=1, Lzer=2, Linf=0.5))
@@ -1222,6 +1223,7 @@ class LogarithmicAmplifier(ac.Component):
         self.connect(self.out.n, self.capacitor.p)
 
 
+@pytest.mark.slow
 def test_a_diode_around_an_amplifier_of_a_high_gain():
     """Its voltage hangs on the input of the amplifier, 3 µV, beside 1 V of the source."""
     gain = LogarithmicAmplifier.GAIN

@@ -84,6 +84,7 @@ def fired(time: float, period: float = 1.0) -> blocks.BooleanPulse:
     return blocks.BooleanPulse(width=1, period=period, startTime=time)
 
 
+@pytest.mark.slow
 def test_a_thyristor_conducts_from_its_firing_until_the_current_vanishes() -> None:
     model = Circuit(
         "source.p thyristor.p",

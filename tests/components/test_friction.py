@@ -314,6 +314,7 @@ class Backstop(ac.Component):
         self.connect(self.shaft.flange_b, self.load.flange)
 
 
+@pytest.mark.slow
 def test_a_backstop_lets_a_heavy_shaft_start():
     inputs = {"load.tau": lambda t: 2 * t - 1, "wheel.f_normalized": 0.0}
     run = ac.simulate(ac.compile(Backstop()), 2.0, inputs=inputs)
@@ -334,12 +335,14 @@ class Bearings(ac.Component):
         self.connect(self.gear.flange_b, self.output.flange_a)
 
 
+@pytest.mark.slow
 def test_a_gear_without_losses_of_teeth_has_no_undefined_conditions():
     """A warning of these would fail."""
     run = ac.simulate(ac.compile(Bearings()), 1.0, inputs={"drive.tau": 2.0})
     assert float(run["input.w"][-1]) == pytest.approx((2.0 - 0.5) / (1.0 + 4.0 / 2**2), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_friction_that_falls_with_speed_does_not_drive():
     """By its table the bearing would drive from 60 rad/s on."""
     shaft = ac.Component()

@@ -168,6 +168,7 @@ class Lift(ac.Component):
         self.connect(self.opening[1].y, self.closed.opening)
 
 
+@pytest.mark.slow
 def test_a_pump_has_one_flow_for_a_head():
     """The parabola through its points has another one for this head, which is negative."""
     run = ac.simulate(ac.compile(Lift()), 1e-3)

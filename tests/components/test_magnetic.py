@@ -287,6 +287,7 @@ def test_leakages_have_their_permeance():
     assert list(found.values()) == pytest.approx([mu_0 * length for length in lengths.values()])
 
 
+@pytest.mark.slow
 def test_other_reluctances_sources_and_sensors():
     class Circuit(ac.Component):
         R, G = ac.Input(unit="1/H"), ac.Input(unit="H")

@@ -58,6 +58,7 @@ def test_a_name_stands_for_one_class() -> None:
     assert {"Spring", "DirectMass"} <= set(tl.utilities.__all__)
 
 
+@pytest.mark.slow
 def test_rotational_mechanics_does_not_import_translational_mechanics() -> None:
     program = "import sys, acausal.components.rotational as r; print('acausal.components.translational' in sys.modules)"
     done = subprocess.run(

@@ -55,6 +55,7 @@ def test_a_map_has_secondary_inputs_and_goes_through_files(tmp_path: Path) -> No
     assert read(again, again.parameters(3), 0.3, 0.7) == read(system, params, 0.3, 0.7)
 
 
+@pytest.mark.slow
 def test_a_curve_is_learned() -> None:
     t = np.linspace(0, 1, 101)
     u = np.sin(6 * t)

@@ -293,6 +293,7 @@ def test_elements_side_by_side_use_their_own_networks(nets):
     assert np.allclose(acceleration, sum(expected))
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("connector", [HeatPort, Pin])
 def test_flow_domains(connector):
     """``(c + net') der(v) = u`` with a neural capacity, ``c der(v) = u - net(v)`` with a resistance."""

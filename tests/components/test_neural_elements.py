@@ -163,6 +163,7 @@ def test_what_is_divided_by_starts_near_its_scales(element: Any) -> None:
     assert (derivatives <= 6).all()
 
 
+@pytest.mark.slow
 def test_heat_flows_from_hot_to_cold() -> None:
     _, run = driven("thermal")
     assert (np.asarray(run["resistance.Q_flow"]) * np.asarray(run["resistance.dT"]) >= 0).all()

@@ -193,6 +193,7 @@ class Fold(ac.Component):
         yield ac.Eq(self.v, ac.der(self.y))
 
 
+@pytest.mark.slow
 def test_another_solution_is_no_silent_result() -> None:
     system = ac.compile(Fold())
 

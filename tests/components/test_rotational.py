@@ -418,6 +418,7 @@ class Train(ac.Component):
         self.connect(self.gearbox.heatPort, self.brake.heatPort, self.ambient.port)
 
 
+@pytest.mark.slow
 def test_a_drive_train_balances_power():
     system = ac.compile(Train())
     rng = np.random.default_rng(0)

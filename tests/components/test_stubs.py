@@ -43,6 +43,7 @@ FIRST_WRONG = 1 + USE.splitlines().index("el.Resistor(bogus=3)")
 SCRIPT = script("docs/make_stubs.py")
 
 
+@pytest.mark.cases(fast=5, slow=21)
 @pytest.mark.parametrize("module", SCRIPT.modules())
 def test_the_stub_is_up_to_date(module: str) -> None:
     path = SCRIPT.path_of(module)

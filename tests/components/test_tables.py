@@ -35,6 +35,7 @@ def values(**sources: Any) -> ac.Solution:
     return ac.simulate(ac.compile(model), (0, 4), saveat=TS)
 
 
+@pytest.mark.slow
 def test_splines_are_those_of_scipy_and_continue_by_their_tangents() -> None:
     found = values(
         **{kind: blocks.CombiTable1Ds(table=ROWS, smoothness=kind) for kind in SPLINES},

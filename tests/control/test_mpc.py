@@ -74,6 +74,7 @@ def test_the_plant_has_the_parameters_of_the_controller_where_it_is_its_model() 
     assert np.abs(same - own).max() > 1e-3
 
 
+@pytest.mark.slow
 def test_limits_hold_and_a_wind_that_is_known_is_met() -> None:
     controller = ac.control.mpc(
         cart(),
@@ -98,6 +99,7 @@ def test_limits_hold_and_a_wind_that_is_known_is_met() -> None:
     assert late.first["push.f"] == pytest.approx(-4.0, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_the_record_of_a_loop_can_be_simulated_again() -> None:
     system, start = cart(), {"mass.s": 1.0, "mass.v": 0.0}
     controller = ac.control.mpc(

@@ -221,6 +221,7 @@ def test_wrong_ones_are_refused_in_one_sentence(make, sentence):
 times = st.lists(st.integers(0, 60), min_size=2, max_size=12, unique=True).map(sorted)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.lists(times, min_size=1, max_size=4), st.sampled_from([0.0, 1e-9, -1e-9]))
 def test_every_signal_keeps_its_samples_whatever_the_others_have(bases, rounding):

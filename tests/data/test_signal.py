@@ -35,6 +35,7 @@ def test_previous_holds_from_each_sample_on(ts):
     np.testing.assert_array_equal(at(signal, [-1.0, 3.0]), [0, values[-1]])
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("ts", [UNIFORM, UNEVEN], ids=["uniform", "uneven"])
 def test_cubic_is_exact_for_parabolas_and_smooth(ts):
     t = np.linspace(0, 2, 201)
@@ -46,6 +47,7 @@ def test_cubic_is_exact_for_parabolas_and_smooth(ts):
     np.testing.assert_allclose(derivative(inner - 1e-9), derivative(inner + 1e-9), atol=1e-5)
 
 
+@pytest.mark.slow
 def test_cubic_converges_faster_than_linear():
     t = np.linspace(0.2, 1.8, 500)
 
@@ -84,6 +86,7 @@ def test_each_side_has_its_own_extrapolation():
         ac.Signal(ts, ts, after_end="stop")  # pyright: ignore[reportArgumentType]
 
 
+@pytest.mark.slow
 def test_derivatives_at_samples_and_ends():
     """At a sample the piece on its right counts; at the end, the last one."""
     line = ac.Signal([0.0, 1.0, 2.0], [0.0, 1.0, 5.0]).differentiated()
@@ -101,6 +104,7 @@ def test_derivatives_at_samples_and_ends():
         cubic.differentiated(3)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("kind", ["linear", "cubic"])
 def test_derivatives_by_time_and_by_values(kind):
     values = jnp.sin(jnp.asarray(UNEVEN))
@@ -182,6 +186,7 @@ def tones(t):
     return 0.2 * t + sum(np.sin(2 * np.pi * f * t + p) for f, p in phases)
 
 
+@pytest.mark.slow
 def test_band_limited_finds_what_lies_between_samples():
     ts = 0.1 * np.arange(401)
     t = np.linspace(10, 30, 1777)
@@ -205,6 +210,7 @@ def test_band_limited_needs_equal_spaces():
         ac.Signal(UNEVEN, UNEVEN, "band-limited", name="u")
 
 
+@pytest.mark.cases(fast=2, slow=6)
 @pytest.mark.parametrize("interpolation", ["linear", "previous", "cubic", "band-limited"])
 @pytest.mark.parametrize("parts", [1, 3])
 def test_sampled_inputs_are_their_signals_within_steps(interpolation, parts):

@@ -220,6 +220,7 @@ def test_the_same_model_gives_the_same_drawing_whatever_the_hash_seed() -> None:
     assert len(found) == 1
 
 
+@pytest.mark.slow
 def test_two_hundred_components_take_little_work() -> None:
     tree = Tree(100)
     with calls_below(3_000_000):

@@ -211,6 +211,7 @@ def test_pulses_of_sines_that_come_through_variables_are_seen():
     np.testing.assert_allclose(slopes["low.level"], [0.0, slope / 4], rtol=1e-6, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", [0.9999, 0.3, -0.2])
 def test_pulses_of_a_sine_are_seen_however_short_they_are(level):
     system = by_formula(lambda s: ac.where(ac.sin(2 * PI * ac.time) > s.p, 1, 0), p=level)
@@ -277,6 +278,7 @@ def test_of_a_chirp_it_shortens():
     assert float(ahead(4.0).longest) == pytest.approx(2 * np.pi / 24 / 8)
 
 
+@pytest.mark.slow
 def test_a_step_does_not_leap_over_the_samples_of_a_smooth_table():
     rows = [[t, float(t == 7)] for t in range(11)]
     system = driven(blocks.CombiTimeTable(table=rows, smoothness="ContinuousDerivative"))

@@ -26,7 +26,7 @@ class Chain(ac.Component):
         yield ac.When(ac.sample(0, 0.1), own, ac.Eq(self.b, self.v), ac.Eq(self.c, self.w))
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("derivative", [jax.jacfwd, jax.jacrev])
 def test_values_of_one_event_that_follow_from_each_other_have_derivatives(derivative: Any) -> None:
     system = ac.compile(Chain())

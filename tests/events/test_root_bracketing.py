@@ -51,6 +51,7 @@ def test_a_search_ends_where_shorter_steps_do_not_show_the_change() -> None:
     assert found.bracketing.tries < TRIES
 
 
+@pytest.mark.slow
 def test_a_step_is_shortened_to_where_a_condition_seems_to_change_and_to_change_back() -> None:
     events: Any = SimpleNamespace(n_guards=1, timed=np.array([False]), strict=np.array([True]))
     like, points = jnp.asarray(0.0), jnp.asarray(POINTS)

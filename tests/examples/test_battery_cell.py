@@ -66,6 +66,7 @@ def test_fewer_rows_keep_ends_and_jumps(made):
     assert {1.0, 60.0, 61.0, 300.0, 301.0, 360.0} <= set(few.time)
 
 
+@pytest.mark.slow
 def test_the_first_voltage_tells_the_charge(system, params, made):
     found = predict(system, params, made)
     assert found.rms < 1e-6

@@ -45,6 +45,7 @@ def test_the_equations_are_those_of_the_paper(learned: bool) -> None:
     ] == [0] * 5
 
 
+@pytest.mark.slow
 def test_the_road_is_rough_as_the_norm_says() -> None:
     time, velocity = rough_road(1, scale=1.0)
     height = np.cumsum(velocity) * (time[1] - time[0])

@@ -100,6 +100,7 @@ def test_values_and_directional_derivatives_are_those_of_jax(
         np.testing.assert_allclose(ours, theirs, rtol=1e-11, atol=1e-11 * np.abs(theirs).max())
 
 
+@pytest.mark.cases(fast=1, slow=2)
 def test_steps_are_those_of_simulate(
     exported: tuple[ac.System, ExportedC, dict[str, Any]],
 ) -> None:
@@ -123,6 +124,7 @@ def test_steps_are_those_of_simulate(
     np.testing.assert_allclose(model.x, end, rtol=1e-9, atol=1e-9 * np.abs(end).max())
 
 
+@pytest.mark.cases(fast=1, slow=2)
 def test_a_parameter_is_changed_in_place(
     exported: tuple[ac.System, ExportedC, dict[str, Any]],
 ) -> None:
@@ -196,6 +198,7 @@ int main(void) {
 """
 
 
+@pytest.mark.slow
 def test_two_instances_run_in_two_threads(tmp_path: Path) -> None:
     need_compiler()
     _, source = ac.export.c(ac.compile(Rectifier()), tmp_path, solver="kvaerno3")
@@ -212,6 +215,7 @@ def test_two_instances_run_in_two_threads(tmp_path: Path) -> None:
     assert done.returncode == 0, (done.returncode, done.stderr)
 
 
+@pytest.mark.slow
 def test_sanitizers_find_nothing(tmp_path: Path) -> None:
     system = ac.compile(Rectifier())
     header, source = ac.export.c(system, tmp_path, solver="kvaerno3")
@@ -235,6 +239,7 @@ def test_sanitizers_find_nothing(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow
 def test_many_components_are_a_loop(tmp_path: Path) -> None:
     sizes = []
     for n in (100, 2000):
@@ -254,7 +259,7 @@ def test_single_precision(tmp_path: Path) -> None:
     np.testing.assert_allclose(model.derivatives(), exact, rtol=2e-4)
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("make", [Sagging, Sharing, Redundant])
 @pytest.mark.parametrize("factor", [1.0, 1.7])
 def test_start_values_follow_from_parameters(
@@ -271,6 +276,7 @@ def test_start_values_follow_from_parameters(
     np.testing.assert_allclose(model.x, system.initial_state(params), rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_start_values_that_cannot_be_found_are_reported(tmp_path: Path) -> None:
     need_compiler()
     model = ExportedC(ac.compile(Redundant()), tmp_path)
@@ -287,6 +293,7 @@ def test_start_values_that_nothing_changes_are_those_exported(tmp_path: Path) ->
     assert "as exported: whatever m.p" in model.files[0].read_text()
 
 
+@pytest.mark.cases(fast=1, slow=2)
 @pytest.mark.parametrize("solver", ["euler", "heun", "implicit_euler"])
 def test_every_method_compiles_strictly_and_steps_as_simulate_does(
     tmp_path: Path, solver: str

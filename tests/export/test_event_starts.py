@@ -87,6 +87,7 @@ def exported(
 Exported = tuple[Case, Unpacked]
 
 
+@pytest.mark.slow
 def test_the_cases_start_in_several_modes() -> None:
     speeds = [PRESSED.ends(change)[0, 1] for change in PRESSED.changes]
     assert min(speeds) < 0 < 1 < max(speeds)
@@ -141,6 +142,7 @@ def test_what_changes_during_initialization_counts(exported: Exported) -> None:
         instance.fmu.exitInitializationMode()
 
 
+@pytest.mark.slow
 def test_a_jump_at_the_start_happens_once(tmp_path: Path) -> None:
     need_fmpy()
     fmu = Unpacked(ac.export.fmu(ac.compile(Kicked()), tmp_path / "kicked.fmu"), "3.0")
@@ -160,6 +162,7 @@ def test_a_jump_at_the_start_happens_once(tmp_path: Path) -> None:
         assert instance.get(["x"]) == [0.2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "exported", [("filling", v) for v in VERSIONS], indirect=True, ids="-".join
 )
@@ -181,6 +184,7 @@ def test_an_fmu_in_a_model_starts_by_its_parameters(exported: Exported) -> None:
     np.testing.assert_allclose(run["a.x"], case.ends({"x0": 0.5})[:, 0], atol=1e-5)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("name", CASES)
 def test_start_and_begin_find_them_in_c(name: str, tmp_path: Path) -> None:
     case = CASES[name]
@@ -199,6 +203,7 @@ def test_starts_that_do_not_depend_on_modes_are_found_once(tmp_path: Path) -> No
     assert "m.x at the start, from m.time, m.u, m.p" in header.read_text()
 
 
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize(
     ("model", "named"),
     [(Sagging, "'s'"), (Pressed, "'s', 'v'"), (Filling, "'x'"), (Filling, "'n'")],

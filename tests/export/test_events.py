@@ -126,7 +126,7 @@ CASES = {
 }
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("name", some_slow(CASES, ["ball, implicit", "slipping", "held"]))
 def test_steps_in_c_are_those_of_simulate(name: str, tmp_path: Path) -> None:
     case = CASES[name]
@@ -199,7 +199,7 @@ def run_fmu(path: Path, case: Case, kind: str, **options: Any) -> Any:
     )
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=0, slow=4)
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 @pytest.mark.parametrize("name", ["ball", "thermostat", "sampled", "relay", "braked"])
 def test_fmus_run_in_fmpy(name: str, fmi: str, tmp_path: Path) -> None:
@@ -219,6 +219,7 @@ def test_fmus_run_in_fmpy(name: str, fmi: str, tmp_path: Path) -> None:
             assert np.abs(found[state][: len(expected)] - expected).max() < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_conditions_are_event_indicators(fmi: str, tmp_path: Path) -> None:
     path = tmp_path / "ball.fmu"
@@ -246,6 +247,7 @@ def test_conditions_are_event_indicators(fmi: str, tmp_path: Path) -> None:
         assert instance.get(["v", "n"]) == pytest.approx([1.6, 1.0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_known_times_are_time_events(fmi: str, tmp_path: Path) -> None:
     path = tmp_path / "sampled.fmu"
@@ -257,6 +259,7 @@ def test_known_times_are_time_events(fmi: str, tmp_path: Path) -> None:
         assert following == pytest.approx(0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_what_rises_from_zero_at_a_time_event_crosses_zero_after_it(
     fmi: str, tmp_path: Path
@@ -295,6 +298,7 @@ def test_states_of_fmus_hold_events(tmp_path: Path) -> None:
         assert ends[0][2] > instance.get(["n"])[0]
 
 
+@pytest.mark.slow
 def test_steps_are_short_enough_after_a_condition_has_changed(tmp_path: Path) -> None:
     system, path = ac.compile(Charging()), tmp_path / "charging.fmu"
     ac.export.fmu(system, path, binary=False)

@@ -117,13 +117,13 @@ def exported(
 Exported = tuple[Case, Unpacked]
 
 
-@pytest.mark.cases(fast=3, slow=2)
+@pytest.mark.cases(fast=1, slow=4)
 def test_fmpy_finds_no_problems(exported: Exported) -> None:
     _, fmu = exported
     assert fmu.fmpy.validation.validate_fmu(str(fmu.path)) == []
 
 
-@pytest.mark.cases(fast=3)
+@pytest.mark.cases(fast=1, slow=5)
 def test_cosimulation_has_the_steps_of_simulate(exported: Exported) -> None:
     case, fmu = exported
     with fmu.instance("CoSimulation") as model:
@@ -136,7 +136,7 @@ def test_cosimulation_has_the_steps_of_simulate(exported: Exported) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
 
 
-@pytest.mark.cases(fast=3)
+@pytest.mark.cases(fast=1, slow=5)
 def test_model_exchange_agrees_with_simulate(exported: Exported) -> None:
     case, fmu = exported
     states, _, order = _states_of(case.system, fmu)
@@ -154,7 +154,7 @@ def test_model_exchange_agrees_with_simulate(exported: Exported) -> None:
         )
 
 
-@pytest.mark.cases(fast=3)
+@pytest.mark.cases(fast=1, slow=5)
 def test_directional_and_adjoint_derivatives_are_those_of_linearize(exported: Exported) -> None:
     case, fmu = exported
     system, names, n = case.system, case.outputs, len(case.system.states)
@@ -253,6 +253,7 @@ def test_parameters_that_are_set_first_move_the_starts(tmp_path: Path, fmi: str)
         assert first(kind, load=8.0, s=0.3) == 0.3
 
 
+@pytest.mark.slow
 def test_starts_that_cannot_be_found_are_logged(tmp_path: Path) -> None:
     fmu = Unpacked(ac.export.fmu(ac.compile(Redundant()), tmp_path / "r.fmu"), "3.0")
     messages: list[str] = []
@@ -264,6 +265,7 @@ def test_starts_that_cannot_be_found_are_logged(tmp_path: Path) -> None:
     assert "no start values satisfy the initial conditions" in messages[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", VERSIONS)
 def test_casadi_reads_it_and_differentiates_it(
     vehicle: ac.System, tmp_path: Path, fmi: str
@@ -283,6 +285,7 @@ def test_casadi_reads_it_and_differentiates_it(
         np.testing.assert_allclose(np.array(ours), theirs, atol=1e-10 * scale, rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_weights_are_tunable_arrays(vehicle: ac.System, tmp_path: Path) -> None:
     fmu = Unpacked(ac.export.fmu(vehicle, tmp_path / "v.fmu"), "3.0")
     other = vehicle.parameters(3)
@@ -317,12 +320,14 @@ def test_value_references_outlive_a_training(vehicle: ac.System, tmp_path: Path)
         assert both[0].description.guid != both[1].description.guid
 
 
+@pytest.mark.slow
 def test_exports_are_reproducible(vehicle: ac.System, tmp_path: Path) -> None:
     need_compiler()
     files = [ac.export.fmu(vehicle, tmp_path / f"{i}.fmu").read_bytes() for i in range(2)]
     assert files[0] == files[1]
 
 
+@pytest.mark.slow
 def test_outputs_know_what_they_read(vehicle: ac.System, tmp_path: Path) -> None:
     fmu = Unpacked(ac.export.fmu(vehicle, tmp_path / "v.fmu", outputs=["body.a", "tyre.f"]), "3.0")
     read = {o.variable.name: {v.name for v in o.dependencies} for o in fmu.description.outputs}
@@ -330,6 +335,7 @@ def test_outputs_know_what_they_read(vehicle: ac.System, tmp_path: Path) -> None
     assert "road.v_ref" in read["tyre.f"]
 
 
+@pytest.mark.slow
 def test_inputs_that_are_left_out_are_parameters(vehicle: ac.System, tmp_path: Path) -> None:
     fmu = Unpacked(ac.export.fmu(vehicle, tmp_path / "v.fmu", inputs=[]), "3.0")
     (held,) = (v for v in fmu.description.modelVariables if v.name == "road.v_ref")
@@ -337,6 +343,7 @@ def test_inputs_that_are_left_out_are_parameters(vehicle: ac.System, tmp_path: P
     assert fmu.fmpy.validation.validate_fmu(str(fmu.path)) == []
 
 
+@pytest.mark.slow
 def test_failures_are_logged_and_discarded(vehicle: ac.System, tmp_path: Path) -> None:
     fmu = Unpacked(ac.export.fmu(vehicle, tmp_path / "v.fmu"), "3.0")
     messages: list[str] = []
@@ -356,6 +363,7 @@ def test_failures_are_logged_and_discarded(vehicle: ac.System, tmp_path: Path) -
     assert "'der(body.v)' is no finite number at t = 0.01 s" in messages[1]
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("fmi", VERSIONS)
 def test_the_sources_fit_the_standard(vehicle: ac.System, tmp_path: Path, fmi: str) -> None:
     """The functions compile strictly, also against the standard's own headers."""
@@ -430,6 +438,7 @@ int main(void) {
 """
 
 
+@pytest.mark.slow
 def test_sanitizers_find_nothing(tmp_path: Path) -> None:
     """A life of an instance: steps, copies of the state, derivatives, wrong calls."""
     need_compiler()
@@ -526,6 +535,7 @@ class Bodies(ac.Component):
             self.connect(leg.flange_b, mass.flange_a)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", VERSIONS)
 def test_typical_magnitudes_are_known(tmp_path: Path, fmi: str) -> None:
     need_fmpy()

@@ -64,7 +64,7 @@ class PreLoad(ac.Component):
             self.connect(gap.flange_b, high)
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=0, slow=4)
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize(
     ("make", "end", "dt"), [(OvervoltageProtection, 0.02, 2e-4), (PreLoad, 0.2, 2e-4)]
@@ -102,6 +102,7 @@ class Pulsed(ac.Component):
         self.connect(self.pulse.y, self.sum.u)
 
 
+@pytest.mark.slow
 def test_steps_end_at_edges(tmp_path: Path) -> None:
     there = ExportedC(ac.compile(Pulsed()), tmp_path, solver="rk4")
     for _ in range(10):
@@ -109,6 +110,7 @@ def test_steps_end_at_edges(tmp_path: Path) -> None:
     np.testing.assert_allclose(there.x, 0.2, rtol=1e-9)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_fmus_have_time_events_at_edges(fmi: str, tmp_path: Path) -> None:
     fmpy = need_fmpy()

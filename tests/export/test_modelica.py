@@ -149,7 +149,7 @@ def agree(rumoca, system, names, end, folder, params=None, driven=""):
         )
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("case", CASES)
 def test_rumoca_simulates_the_text_as_acausal_does(case, rumoca, tmp_path):
     make, names, end, driven = CASES[case]
@@ -157,6 +157,7 @@ def test_rumoca_simulates_the_text_as_acausal_does(case, rumoca, tmp_path):
     agree(rumoca, system, names, end, tmp_path, system.parameters(1), driven)
 
 
+@pytest.mark.slow
 def test_trained_numbers_are_in_the_text(rumoca, tmp_path):
     system = ac.compile(Oscillator())
     params = {**system.parameters(1), "damper.c": 61.5, "mass.m": 1.25}
@@ -166,11 +167,13 @@ def test_trained_numbers_are_in_the_text(rumoca, tmp_path):
     assert "Components.SpringDamper damper(c=61.5, d=3)" in text
 
 
+@pytest.mark.slow
 def test_numbers_set_in_the_whole_model_are_in_the_text(rumoca, tmp_path):
     system = ac.compile(Ball(h=ac.Start(2.0)))
     agree(rumoca, system, ("h", "v"), 1.5, tmp_path, {"e": 0.6})
 
 
+@pytest.mark.slow
 def test_vectors(rumoca, tmp_path):
     system = ac.compile(Vectors())
     agree(rumoca, system, system.states, 1.0, tmp_path, {"several.k[2]": 4.0})
@@ -179,6 +182,7 @@ def test_vectors(rumoca, tmp_path):
     agree(rumoca, whole, whole.states, 1.0, tmp_path, {"k[3]": 0.5})
 
 
+@pytest.mark.slow
 def test_a_loaded_netlist(rumoca, tmp_path):
     file = tmp_path / "loaded.json"
     file.write_text(json.dumps(NETLIST))
@@ -186,6 +190,7 @@ def test_a_loaded_netlist(rumoca, tmp_path):
     agree(rumoca, system, ("mass.s", "slow"), 2.0, tmp_path)
 
 
+@pytest.mark.slow
 def test_what_is_outer_in_a_part_is_written(tmp_path):
     text = """package io
       model Env parameter Real g = 5; Real T; equation T = 2 + time; end Env;
@@ -204,6 +209,7 @@ def test_what_is_outer_in_a_part_is_written(tmp_path):
     assert float(again["q.x"][-1]) == pytest.approx(float(ac.simulate(system, 1.0)["q.x"][-1]))
 
 
+@pytest.mark.slow
 def test_names_stay_apart(rumoca, tmp_path):
     system = ac.compile(Alike())
     agree(rumoca, system, ("y",), 1.0, tmp_path)
@@ -294,6 +300,7 @@ def test_values_of_enumerations_have_their_types(tmp_path: Path) -> None:
     assert again.amplifier.homotopyType == "UpperLimit"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "declared", ["Integer n(start = 3, fixed = true)", "discrete Real n(start = 3)"]
 )
@@ -309,6 +316,7 @@ def test_a_rate_that_is_a_discrete_variable_gives_the_state(tmp_path: Path, decl
     assert float(again["x"][-1]) == pytest.approx(0.5 * (3 + 4 + 5 + 6) + 0.2 * 7)
 
 
+@pytest.mark.slow
 def test_signals_of_an_expandable_connector_are_connected_by_their_names(tmp_path: Path) -> None:
     (tmp_path / "bus.mo").write_text(
         """package Buses
@@ -331,6 +339,7 @@ def test_signals_of_an_expandable_connector_are_connected_by_their_names(tmp_pat
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("sizes", "first", "second", "written"),
     [

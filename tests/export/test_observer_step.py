@@ -83,7 +83,7 @@ class InC:
         return self.library.one_step(self.m, ctypes.c_double(t), ctypes.c_double(u), pointer)
 
 
-@pytest.mark.cases(fast=1, slow=2)
+@pytest.mark.cases(fast=0, slow=3)
 @pytest.mark.parametrize("method", ["ekf", "ukf"])
 def test_a_run_in_c_is_that_of_the_observer(
     vehicle: ac.System, rows: Rows, tmp_path: Path, method: str
@@ -129,7 +129,7 @@ def test_stablehlo_has_the_same_step(vehicle: ac.System, rows: Rows, tmp_path: P
     np.testing.assert_allclose(memory[2], observer.mean, rtol=1e-12, atol=1e-14)
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("method", ["ekf", "ukf"])
 def test_onnx_has_the_same_step(vehicle: ac.System, rows: Rows, tmp_path: Path, method: str):
     onnxruntime = pytest.importorskip("onnxruntime")

@@ -40,6 +40,7 @@ def same(found, expected):
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_right_hand_side_is_that_of_jax(vehicle, run, tmp_path):
     params = vehicle.parameters(3)
     path = ac.export.onnx(vehicle, tmp_path / "v.onnx", params, outputs=["body.a"])
@@ -74,7 +75,7 @@ def test_discrete_variables_are_an_input(run, tmp_path):
         same(dx, [(30 * on - 10) / 10])
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize(
     "law",
     [

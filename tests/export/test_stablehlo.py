@@ -12,6 +12,7 @@ import acausal as ac
 from examples.qvm import model as qvm
 
 
+@pytest.mark.slow
 def test_round_trip_with_a_derivative(tmp_path):
     pytest.importorskip("flatbuffers", reason="flatbuffers, which writes .jax, is not installed")
     system = ac.compile(qvm.with_networks())

@@ -371,6 +371,7 @@ def test_values_from_outside_of_the_model_are_refused():
         ac.compile(outer.inner)
 
 
+@pytest.mark.slow
 def test_an_array_may_be_declared_with_a_start_for_each_element():
     class Counts(ac.Component):
         n = ac.Discrete((5.0, 6.0), shape=2)
@@ -825,6 +826,7 @@ class Rows(ac.Component):
             yield ac.Eq(terms - self.x, i - 14.0)
 
 
+@pytest.mark.slow
 def test_rows_of_a_matrix_are_one_equation_whatever_their_signs():
     system = ac.compile(Rows())
     assert len({g.template for g in system.flat.groups}) == 2

@@ -103,7 +103,7 @@ class Stepped(ac.Component):
         self.connect(self.step.y, self.lag.u)
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("events", [False, True])
 def test_a_time_that_is_known_ahead_has_a_gradient(events: bool) -> None:
     with warnings.catch_warnings():
@@ -153,6 +153,7 @@ class Slowed(ac.Component):
         self.connect(self.rate.y, self.ramp.u)
 
 
+@pytest.mark.slow
 def test_all_that_moves_the_instant_of_a_block_has_a_gradient() -> None:
     """The end is y0 + t + 0.2 (2 - t) with t = threshold / k - y0."""
     system = ac.compile(Slowed())
@@ -164,6 +165,7 @@ def test_all_that_moves_the_instant_of_a_block_has_a_gradient() -> None:
         assert float(jax.grad(end)(float(system.parameters()[name]))) == pytest.approx(exact)
 
 
+@pytest.mark.slow
 def test_derivatives_over_a_literal_jump_are_warned_of() -> None:
     system = ac.compile(Load(lambda s: ac.where(s.x > 0.5, s.k, 1)))
 

@@ -58,7 +58,7 @@ def exact(time: float) -> Any:
     return (expm(augmented * time) @ [0.1, 0.2, 1.0])[:2]
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize(("kind", "error"), [("me", 1e-7), ("cs", 2e-3)])
 def test_sizes_follow_from_structural_parameters(linear: Path, kind: Any, error: float) -> None:
     alone = ac.compile(ac.FMU(linear, {"u": 1.0}, kind=kind))  # with the sizes that the file has
@@ -69,6 +69,7 @@ def test_sizes_follow_from_structural_parameters(linear: Path, kind: Any, error:
     np.testing.assert_allclose([run[f"y[{i}]"][-1] for i in (1, 2)], exact(0.8), atol=error)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("kind", ["me", "cs"])
 def test_values_can_be_read_where_an_fmu_ends(linear: Path, kind: Any) -> None:
     system = ac.compile(ac.FMU(linear, {"u": 1.0}, kind=kind, step=0.1 if kind == "cs" else None))

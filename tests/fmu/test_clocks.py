@@ -94,6 +94,7 @@ def loop(n: int, h: float = 0.1, shift: float = 0.0) -> tuple[np.ndarray, np.nda
     return np.array(zs), np.array(ys)
 
 
+@pytest.mark.slow
 @KINDS
 def test_a_controller_computes_at_the_ticks_of_its_clock(clocked: Clocked, kind: Any) -> None:
     part = ac.FMU(clocked(), kind=kind)
@@ -104,7 +105,7 @@ def test_a_controller_computes_at_the_ticks_of_its_clock(clocked: Clocked, kind:
     np.testing.assert_allclose(run["part.y"], ys, atol=1e-12)
 
 
-@pytest.mark.cases(fast=2, slow=2)
+@pytest.mark.cases(fast=0, slow=4)
 @KINDS
 @pytest.mark.parametrize(
     ("clock", "more", "h", "shift"),
@@ -129,6 +130,7 @@ def test_periodic_clocks_have_an_interval_and_a_shift(
     np.testing.assert_allclose(np.asarray(run["part.y"])[at + 1], ys[:-1], atol=1e-12)
 
 
+@pytest.mark.slow
 @KINDS
 def test_clocks_that_the_fmu_triggers_counts_down_or_changes(clocked: Clocked, kind: Any) -> None:
     values = {"level": 0.75, "delay": 0.12}
@@ -166,7 +168,7 @@ class Counted(ac.Component):
         return iter(())
 
 
-@pytest.mark.cases(fast=1, slow=0)
+@pytest.mark.cases(fast=0, slow=1)
 @KINDS
 def test_a_clock_of_one_fmu_triggers_that_of_another(clocked: Clocked, kind: Any) -> None:
     inputs = {"source.u": 1.0, "source.ask": 0, "sink.u": 0.0}
@@ -176,7 +178,7 @@ def test_a_clock_of_one_fmu_triggers_that_of_another(clocked: Clocked, kind: Any
     np.testing.assert_array_equal(np.asarray(run["sink.a"])[around], [0, 1, 1, 2, 2, 3])
 
 
-@pytest.mark.cases(fast=1, slow=0)
+@pytest.mark.cases(fast=0, slow=1)
 @KINDS
 def test_a_triggered_clock_takes_an_interval(clocked: Clocked, kind: Any) -> None:
     system = ac.compile(ac.FMU(clocked(), {"ask": 0.25}, kind=kind))
@@ -209,6 +211,7 @@ def test_gradients_go_through_what_clocks_compute(clocked: Clocked, kind: Any) -
         jax.grad(of_loop)(0.5)
 
 
+@pytest.mark.slow
 def test_clocks_that_cannot_tick_are_refused(clocked: Clocked) -> None:
     with pytest.raises(ac.DeclarationError, match="'tick' of 'Clocked' is constant: it takes no"):
         ac.FMU(clocked(), {"tick": 0.2})

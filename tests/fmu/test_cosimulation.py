@@ -58,6 +58,7 @@ def by_fmpy(path: Path, fmi: str, k: float) -> np.ndarray:
     return np.array(found)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_it_steps_from_point_to_point(masses: Callable[[str], Path], fmi: str) -> None:
     path = masses(fmi)

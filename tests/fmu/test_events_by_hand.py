@@ -44,6 +44,7 @@ def counter(tmp_path_factory: pytest.TempPathFactory) -> Counter:
     return lambda description: compiled_fmu(folder, "counter", description)
 
 
+@pytest.mark.slow
 def test_an_fmu_is_told_of_completed_steps(counter: Counter) -> None:
     part = ac.FMU(counter(DESCRIPTION))
     assert "model exchange, with a completed step each 0.1 s" in repr(part)
@@ -72,6 +73,7 @@ DISCRETE = DESCRIPTION.replace(' needsCompletedIntegratorStep="true"', "").repla
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["previous", "linear"])
 def test_a_discrete_input_is_set_at_events(counter: Counter, kind: Any) -> None:
     """One that is held changes at the events that it makes, a ramp whenever it has changed by a thousandth."""
@@ -99,12 +101,14 @@ def test_gradients_through_discrete_inputs_are_refused(counter: Counter) -> None
     assert jax.grad(lambda v: end(v, open_loop=True))(1.0) == 0
 
 
+@pytest.mark.slow
 def test_a_co_simulation_that_has_no_event_mode_after_all_does_without(counter: Counter) -> None:
     part = ac.FMU(counter(DESCRIPTION.replace('"counter">', '"eventless">')), kind="cs")
     run = ac.simulate(ac.compile(part), 1.0, dt=0.1)
     np.testing.assert_allclose(run["x"], 0.2 * np.arange(11), atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_library_without_clocks_is_named_where_the_description_has_one(counter: Counter) -> None:
     interval = 'intervalVariability="constant" intervalDecimal="1"'
     clock = f'<Clock name="tick" valueReference="9" causality="input" {interval}/>'

@@ -189,6 +189,7 @@ def push(t: Any) -> Any:
     return 3 * jnp.sin(20 * t)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_steps_are_those_of_the_model(exported: Exported, fmi: str) -> None:
     system = ac.compile(Driven(exported(Mass, fmi)))
@@ -282,6 +283,7 @@ def test_a_gradient_through_what_an_fmu_samples_and_keeps_is_warned_of(tmp_path:
                 jax.grad(end)(0.0)
 
 
+@pytest.mark.slow
 def test_an_element_of_a_state_may_be_an_output(tmp_path: Path) -> None:
     system = ac.compile(Row())
     ac.export.fmu(system, tmp_path / "row.fmu", fmi="3.0", outputs=["x[3]"])

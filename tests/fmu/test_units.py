@@ -30,7 +30,7 @@ class Bench(ac.Component):
 STEP = {"me": None, "cs": 0.05}
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("kind", ["me", "cs"])
 def test_a_model_has_si_units(tmp_path: Path, kind: Any) -> None:
     need_fmpy()

@@ -19,7 +19,7 @@ class Latch(ac.Component):
         yield ac.When(self.x > 1, ac.Eq(self.n, ac.pre(self.n) + 1))
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("fixed", [True, False])
 def test_a_fixed_start_is_the_value_before_the_first_event(fixed):
     system = ac.compile(Latch(n=ac.Start(3, fixed=fixed), high=ac.Start(0, fixed=fixed)))
@@ -47,6 +47,7 @@ def heater() -> ac.System:
     return ac.compile(Heater())
 
 
+@pytest.mark.slow
 def test_x0_gives_what_events_remember(heater):
     """From 20 with the heater on, the zone reaches 22 where exp(-0.1 t) = 8 / 10, and cools to 18 from there."""
     found = ac.simulate(heater, 10.0, x0={"on": True})
@@ -57,6 +58,7 @@ def test_x0_gives_what_events_remember(heater):
     assert later["T"].tolist() == pytest.approx([19.0, 30 - 11 * np.exp(-0.1)], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_points_and_sweeps_take_it(heater):
     at = ac.operating_point(heater, x0={"T": 20.0, "on": 1})
     assert float(at["on"]) == 1.0

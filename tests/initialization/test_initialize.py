@@ -131,6 +131,7 @@ def test_conditions_use_the_inputs():
     np.testing.assert_allclose(system.initial_state(inputs=[8.0]), [2.0, 0.0], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_dummy_states_fixed_start_sets_the_state():
     pendulum = Pendulum(x=Start(0.5, state="prefer"), y=Start(-0.8, fixed=True))
     system = ac.compile(pendulum)
@@ -141,6 +142,7 @@ def test_a_dummy_states_fixed_start_sets_the_state():
 # -- initial equations --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_initial_equations_with_derivatives():
     component = Initial(
         "x v", lambda s: [Eq(der(s.x), s.v), Eq(der(s.v), 3 - s.k * s.x - s.v)],
@@ -150,6 +152,7 @@ def test_initial_equations_with_derivatives():
     np.testing.assert_allclose(start(component), [1.5, 0.0], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_initial_equations_of_many_alike_components():
     def make(k):
         return Initial(
@@ -166,6 +169,7 @@ def test_initial_equations_depend_on_time_and_zero_parameters():
     np.testing.assert_allclose(start(component, t0=3.0), [9.0])
 
 
+@pytest.mark.slow
 def test_initial_equations_with_modules():
     class Learned(Initial):
         net = ac.Module(lambda key: lambda x: 3.0 * x)
@@ -242,6 +246,7 @@ def test_what_x0_gives_overrides_fixed_starts():
 # -- gradients ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_gradients_go_through_the_initialization():
     component = Initial(
         "x y", lambda s: [Eq(der(s.x), s.y - s.p * s.x**3), Eq(der(s.y), -s.x - s.q * s.y)],
@@ -279,6 +284,7 @@ def test_gradients_with_respect_to_starts_that_are_parameters():
     assert derivative.tolist() == [6.0, 0.0]
 
 
+@pytest.mark.slow
 def test_under_jit_nothing_is_raised():
     component = Initial(
         "x", lambda s: [Eq(der(s.x), s.k)], lambda s: [Eq(s.x, 1), Eq(s.x, 2)], k=1.0
@@ -301,6 +307,7 @@ def hanging_system():
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_at_rest(hanging_system):
     at_rest = hanging_system.initial_state(inputs=[2.0], steady=True)
     np.testing.assert_allclose(at_rest, [1.5, 0.0], atol=1e-12)
@@ -360,6 +367,7 @@ def test_a_whole_state_that_is_not_finite_is_told(hanging_system):
         hanging_system.initial_state(x0=[0.0, np.nan])
 
 
+@pytest.mark.slow
 def test_some_states_at_rest(hanging_system):
     found = hanging_system.initialize(x0={"m.v": 2.0}, inputs=[0.0], steady=["m.v"])
     np.testing.assert_allclose(found.x, [0.75, 2.0])
@@ -369,12 +377,14 @@ def test_some_states_at_rest(hanging_system):
         hanging_system.initial_state(steady=["m.w"])
 
 
+@pytest.mark.slow
 def test_a_free_mass_at_rest_stays_where_it_starts():
     found = ac.compile(model(m=Mass(m=1.0, s=Start(3.0), v=Start(1.0)))).initialize(steady=True)
     np.testing.assert_allclose(found.x, [3.0, 0.0], atol=1e-12)
     assert found.roles == ("start", "computed")
 
 
+@pytest.mark.slow
 def test_what_the_conditions_leave_open_is_told():
     component = Equations(
         "x y z w", lambda s: [Eq(der(s.x), 1), Eq(der(s.y), 1), Eq(der(s.w), 1), Eq(s.z, s.x + s.y)]
@@ -388,6 +398,7 @@ def test_what_the_conditions_leave_open_is_told():
     assert "z (fixed start): off by" in told
 
 
+@pytest.mark.slow
 def test_the_smallest_change_is_measured_in_nominal_values():
     component = Equations("x y z", lambda s: [Eq(der(s.x), 1), Eq(der(s.y), 1), Eq(s.z, s.x + s.y)])
     component.modify(z=Start(10.0, fixed=True), x=Start(nominal=3.0))
@@ -403,6 +414,7 @@ def conflicting():
     return component
 
 
+@pytest.mark.slow
 def test_least_squares_meets_conditions_as_well_as_can_be():
     system = ac.compile(conflicting())
     with pytest.raises(ac.InitializationError, match=r"least_squares=True"):
@@ -431,6 +443,7 @@ def test_a_conflict_names_what_cannot_move():
 # -- parameters found at the initial time ---------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_parameter_that_makes_a_start_fit():
     system = ac.compile(
         hanging(
@@ -464,6 +477,7 @@ class Tuned(ac.Component):
         self.connect(self.soft.flange_b, self.hard.flange_b, self.mass.flange_a)
 
 
+@pytest.mark.slow
 def test_parameters_that_follow_from_found_ones():
     system = ac.compile(Tuned())
     found = system.initialize(x0={"mass.v": 0.0})

@@ -172,6 +172,7 @@ def test_an_array_of_parameters_that_initial_equations_determine(tmp_path: Path)
     assert float(run["x[2]"][-1]) == pytest.approx(3 * np.exp(-0.5), rel=1e-4)
 
 
+@pytest.mark.slow
 def test_what_discrete_variables_are_before_the_start(tmp_path: Path) -> None:
     """A step is active from the start until half a second; a block counts how often its level changes."""
     file = tmp_path / "Steps.mo"
@@ -217,6 +218,7 @@ def test_what_discrete_variables_are_before_the_start(tmp_path: Path) -> None:
     assert (run["counter.n"] - run["counter.n"][0]).tolist() == [0, 0, 1, 2]
 
 
+@pytest.mark.slow
 def test_what_is_inner_and_outer_passes_on_something_else(tmp_path: Path) -> None:
     """Within a level its surroundings are twice those around it; a port that nobody connects is off."""
     file = tmp_path / "Levels.mo"
@@ -263,6 +265,7 @@ def test_what_is_inner_and_outer_passes_on_something_else(tmp_path: Path) -> Non
     assert [float(run[n][-1]) for n in ("leaf.n", "level.leaf.n")] == [0, 1]
 
 
+@pytest.mark.slow
 def test_an_algorithm_that_chooses_again_and_again_stays_small(tmp_path: Path) -> None:
     """Each choice reads what the one before has made: as one expression it would have 2^16 cases."""
     file = tmp_path / "Choices.mo"
@@ -290,6 +293,7 @@ def test_an_algorithm_that_chooses_again_and_again_stays_small(tmp_path: Path) -
     assert run["n"].tolist() == [chosen(0), chosen(3)]
 
 
+@pytest.mark.slow
 def test_outputs_of_the_librarys_interfaces_may_change_at_events(tmp_path: Path) -> None:
     path = tmp_path / "sampled.mo"
     path.write_text(
@@ -320,6 +324,7 @@ def test_outputs_of_the_librarys_interfaces_may_change_at_events(tmp_path: Path)
     assert float(at["steps.y"][-1]) == pytest.approx(3.5)
 
 
+@pytest.mark.slow
 def test_quotients_of_integers_are_exact(tmp_path: Path) -> None:
     """Rounded quotients of the expanded expressions were a whole off wherever one divides the other."""
     file = tmp_path / "Quotients.mo"

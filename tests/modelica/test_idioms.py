@@ -69,6 +69,7 @@ def system(model: Any) -> ac.System:
     return ac.compile(model)
 
 
+@pytest.mark.slow
 def test_states_move_as_their_equations_say(system: ac.System) -> None:
     ones = np.ones(len(system.states))
     params = system.parameters()
@@ -77,6 +78,7 @@ def test_states_move_as_their_equations_say(system: ac.System) -> None:
     assert moves == pytest.approx(MOVES)
 
 
+@pytest.mark.slow
 def test_a_copy_has_the_same_equations(model: Any, system: ac.System) -> None:
     again = ac.compile(copy.deepcopy(model))
     assert [str(e) for e in again.equations] == [str(e) for e in system.equations]
@@ -143,6 +145,7 @@ package Lib
 end Lib;"""
 
 
+@pytest.mark.cases(fast=1, slow=4)
 @pytest.mark.parametrize(
     "file",
     [
@@ -187,6 +190,7 @@ def test_a_file_that_is_not_there_is_refused(
             ac.load(tmp_path / "Lib")
 
 
+@pytest.mark.slow
 def test_members_of_arrays_inputs_with_a_value_and_names_of_instances(tmp_path: Path) -> None:
     file = tmp_path / "members.mo"
     file.write_text("""
@@ -318,6 +322,7 @@ def test_a_function_too_large_for_an_expression_is_a_number(tmp_path: Path) -> N
         model.modify(A=[[-1.0, 0.2], [0.3, -3.0]])
 
 
+@pytest.mark.slow
 def test_elements_of_discrete_arrays_start_by_their_initial_equations(tmp_path: Path) -> None:
     (tmp_path / "D.mo").write_text("""
       model D

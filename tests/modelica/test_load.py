@@ -232,6 +232,7 @@ def test_parts_that_are_alike_are_read_once(
         ac.load(file)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("selfcontained", [True, False])
 @pytest.mark.parametrize("case", ["oscillator", "sampled", "vectors"])
 def test_an_export_comes_back(tmp_path: Path, case: str, selfcontained: bool) -> None:
@@ -248,6 +249,7 @@ def test_an_export_comes_back(tmp_path: Path, case: str, selfcontained: bool) ->
     assert np.max(np.abs(found - wanted)) < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("selfcontained", [True, False])
 def test_gradients_of_an_export_are_the_native_ones(tmp_path: Path, selfcontained: bool) -> None:
     """Of a simulation's loss, with respect to the parameters and to all weights of a network."""
@@ -298,6 +300,7 @@ def test_commands_take_a_file_and_a_class_of_it(capsys: pytest.CaptureFixture[st
     assert "there is no model 'Nope'" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_benchmark_counts_what_becomes_of_the_models_of_a_library(tmp_path: Path) -> None:
     (tmp_path / "package.mo").write_text("""package Lib
       model A Real x(start = 1, fixed = true); equation der(x) = -x; annotation(experiment(StopTime = 2)); end A;

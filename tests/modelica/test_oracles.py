@@ -44,7 +44,7 @@ def test_oracles_are_there() -> None:
     assert len(NETLISTS) >= 63
 
 
-@pytest.mark.cases(fast=1, slow=3)
+@pytest.mark.cases(fast=0, slow=4)
 @pytest.mark.parametrize("name", NETLISTS)
 def test_an_export_is_the_system_of_the_netlist(name: str, tmp_path: Path) -> None:
     """In turn with the classes of the standard library, and with all classes in the file."""
@@ -57,7 +57,7 @@ def test_an_export_is_the_system_of_the_netlist(name: str, tmp_path: Path) -> No
     agree(ours, again, start, start + (stop - start) / 10)
 
 
-@pytest.mark.cases(fast=2, slow=5)
+@pytest.mark.cases(fast=1, slow=6)
 @pytest.mark.parametrize("name", BY_HAND)
 def test_what_is_written_by_hand_is_the_system_of_the_netlist(name: str) -> None:
     if not FOLDER.is_dir():

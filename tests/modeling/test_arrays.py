@@ -57,6 +57,7 @@ def test_a_matrix_is_given_by_its_name_though_an_entry_is_folded():
         system.pack({"A": [[0.5, 1.0], [-9.0, -0.2]]})
 
 
+@pytest.mark.slow
 def test_jumps_and_discrete_equations_of_vectors():
     run = ac.simulate(ac.compile(Slow()), 2.0, rtol=1e-9, atol=1e-12)
     at_event = np.exp(-0.5) * np.array([1.0, 2.0, 3.0])

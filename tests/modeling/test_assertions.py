@@ -98,6 +98,7 @@ def test_what_python_knows_is_said_at_once() -> None:
         ac.compile(Two(pumps=0))
 
 
+@pytest.mark.slow
 def test_a_sweep_names_the_variants(two: ac.System) -> None:
     with pytest.warns(UserWarning, match=r"1 of 3 variants .* first\.area = 0\.1: .*level >= 0"):
         ac.sweep(two, {"first.area": [0.1, 1.0, 3.0]}, 1.6)
@@ -199,6 +200,7 @@ def test_components_refuse_what_cannot_be(made: Callable[[], ac.Component], mess
         ac.compile(made())
 
 
+@pytest.mark.slow
 def test_tanks_say_that_they_run_empty_or_over() -> None:
     class Drained(ac.Component):
         def __init__(self) -> None:
@@ -211,6 +213,7 @@ def test_tanks_say_that_they_run_empty_or_over() -> None:
         ac.simulate(ac.compile(Drained()), 20.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("flow", "said"), [(1e-3, "overflows"), (-1e-3, "has run empty")])
 def test_a_tank_has_a_bottom_and_a_rim(flow: float, said: str) -> None:
     class Filled(ac.Component):
@@ -228,6 +231,7 @@ def test_a_tank_has_a_bottom_and_a_rim(flow: float, said: str) -> None:
         ac.simulate(ac.compile(Filled()), 2.0)
 
 
+@pytest.mark.slow
 def test_a_piston_says_that_it_passes_the_end_of_its_cylinder() -> None:
     class Pushed(ac.Component):
         def __init__(self) -> None:
@@ -253,6 +257,7 @@ class Halves(ac.Component):
         yield ac.When(ac.sample(0.25, 0.5), step, ac.Eq(self.on, 1 - ac.pre(self.on)))
 
 
+@pytest.mark.slow
 def test_fractions_of_whole_numbers_are_told() -> None:
     with pytest.warns(
         UserWarning, match=r"'count' is declared with kind='int', but is 1\.5 at t = 0\.3 s"

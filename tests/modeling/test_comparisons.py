@@ -26,7 +26,7 @@ class Counted(ac.Component):
         yield ac.When(ac.pre(self.n) == 2, ac.Eq(self.seen, 1))
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize(
     ("holds", "end"),
     [

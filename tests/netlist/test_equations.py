@@ -60,6 +60,7 @@ def write(tmp_path: Path) -> Write:
     return written
 
 
+@pytest.mark.slow
 def test_a_ball_of_a_file_bounces(write: Write) -> None:
     system = ac.compile(ac.load(write(BALL)), check_units=False)
     run = ac.simulate(system, (0.0, 1.5), saveat=[1.5], rtol=1e-10, atol=1e-12)

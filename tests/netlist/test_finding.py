@@ -6,6 +6,7 @@ import acausal as ac
 from acausal.components import electrical as el, rotational as rot
 
 
+@pytest.mark.slow
 def test_the_class_of_that_name_comes_first() -> None:
     found = ac.find("resistor")
     assert found[0] is el.Resistor

@@ -116,6 +116,7 @@ def test_every_name_of_modelica_finds_a_component_a_connector_or_a_signal() -> N
         assert not MSL.lacks(name), name
 
 
+@pytest.mark.slow
 def test_a_name_of_modelica_imports_its_own_package_only() -> None:
     program = """if True:
         import sys

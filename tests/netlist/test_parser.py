@@ -205,7 +205,7 @@ def test_refusals(text: str, reason: str) -> None:
     assert "\n" not in message
 
 
-@pytest.mark.cases(fast=4)
+@pytest.mark.cases(fast=1, slow=7)
 @pytest.mark.parametrize(
     "text",
     [

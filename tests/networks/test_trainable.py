@@ -157,6 +157,7 @@ def test_arguments_and_labels_of_networks_in_a_list():
     np.testing.assert_allclose(together.values(system, at), [[0.1], [0.4]], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_fourier_series_repeats_and_has_no_mean():
     net = ac.networks.Fourier(2.0, harmonics=3, output_scale=5.0)
     assert float(net(0.3)) == 0

@@ -103,6 +103,7 @@ class Train(ac.Component):
             self.connect(wagon.drag.flange_b, self.rails.flange)
 
 
+@pytest.mark.slow
 def test_of_many_components_those_that_the_schematic_shows_have_a_card():
     system = ac.compile(Train())
     paths = [card.path for card in component_cards(system, Known(system.pack()))]
@@ -158,6 +159,7 @@ class Circuit(ac.Component):
         self.connect(self.r.heatPort, self.body.port)
 
 
+@pytest.mark.slow
 def test_electrical_energy_becomes_heat():
     run = ac.simulate(ac.compile(Circuit()), (0, 0.5), dt=1e-4)
     found = {

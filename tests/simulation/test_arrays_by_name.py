@@ -40,6 +40,7 @@ def system() -> ac.System:
 NO = {"u": np.zeros(3)}
 
 
+@pytest.mark.slow
 def test_a_whole_array_is_given_and_read(system: ac.System) -> None:
     run = ac.simulate(system, 1.0, inputs=NO, x0={"x": X0}, params={"k": tuple(2 * K)})
     exact = X0 * np.exp(-2 * K * run.t[:, None])
@@ -49,6 +50,7 @@ def test_a_whole_array_is_given_and_read(system: ac.System) -> None:
     np.testing.assert_array_equal(run[["x[2]", "x[1]"]], run["x"][:, 1::-1])
 
 
+@pytest.mark.slow
 def test_lists_hold_anything_that_an_element_takes(system: ac.System) -> None:
     def end(k: jax.Array | float) -> jax.Array:
         run = ac.simulate(system, 1.0, dt=0.02, inputs=NO, x0={"x": X0}, params={"k": [k, 2, 3]})
@@ -88,6 +90,7 @@ def test_derivatives_by_an_array(system: ac.System) -> None:
     np.testing.assert_allclose(jax.grad(end)(jnp.asarray(K)), -X0 * np.exp(-K), rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_a_record_and_a_point_of_rest(system: ac.System) -> None:
     record = ac.Data([0.0, 1.0], {"u[1]": [0, 1], "u[2]": [2, 3], "other": [0, 0]})
     np.testing.assert_array_equal(record["u"], [[0, 2], [1, 3]])

@@ -7,6 +7,7 @@ from benchmarks.tolerance import STRUCTURES
 from tests.support.slow import some_slow
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", some_slow(STRUCTURES, STRUCTURES.keys() - {"dead zone", "rectifier"}, ["rectifier"])
 )

@@ -60,6 +60,7 @@ class Saturating(ac.Component):
         yield ac.Eq(ac.der(self.v), self.push - 50 * ac.tanh(8 * self.v))
 
 
+@pytest.mark.slow
 def test_states_that_are_wrong_within_bounds_are_warned_of():
     system = ac.compile(Saturating())
 

@@ -125,6 +125,7 @@ class Thresholds(ac.Component):
         yield Eq(der(self.y), self.on)
 
 
+@pytest.mark.slow
 def test_conditions_without_a_value_are_no_silent_result() -> None:
     with pytest.warns(UserWarning, match=r"undefined \(nan\) at the end of \d+ steps"):
         ac.simulate(ac.compile(Thresholds()), 1.0)
@@ -145,6 +146,7 @@ class Repeated(ac.Component):
         yield Eq(self.on, self.y > 0.5)
 
 
+@pytest.mark.slow
 def test_undefined_conditions_name_the_singular_equations_behind_them() -> None:
     expected = (
         r"undefined \(nan\) at the end of \d+ steps.* At t = 0 s, .*singular.* lock the same motion"

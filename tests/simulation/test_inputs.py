@@ -102,6 +102,7 @@ def test_rounded_times_reach_the_end():
         assert float(function(span[1])) == 1.0
 
 
+@pytest.mark.slow
 def test_a_record_of_traced_times_is_nan_where_it_would_be_refused():
     @jax.jit
     def last(ts, values):
@@ -305,6 +306,7 @@ SAID = (
 )
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("dt", [0.1, None])
 def test_functions_are_differentiated_by_jax(dt):
     found, said = follow({REFERENCE: position}, dt)
@@ -319,7 +321,7 @@ def test_numbers_have_no_rate():
     assert float(jnp.abs(found[["first.v", "first.a"]]).max()) == 0.0
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=0, slow=4)
 @pytest.mark.parametrize("dt", [0.1, None])
 @pytest.mark.parametrize("form", ["pair", "samples", "record", "signal"])
 def test_records_are_differentiated_as_they_are_interpolated(form, dt):
@@ -383,7 +385,7 @@ def test_a_missing_reference_is_asked_for_alone():
     )
 
 
-@pytest.mark.cases(fast=4)
+@pytest.mark.cases(fast=1, slow=7)
 @pytest.mark.parametrize("parts", [1, 3])
 @pytest.mark.parametrize(
     ("interpolation", "times"),
@@ -406,6 +408,7 @@ def test_derivatives_over_steps_integrate_to_their_signal(interpolation, times, 
     np.testing.assert_allclose(integral * np.diff(ends), change, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_derivatives_have_gradients_by_samples():
     def speed(values):
         signal = ac.Signal(T, values, "cubic").differentiated()
@@ -463,6 +466,7 @@ class Lag(ac.Component):
         yield ac.Eq(ac.der(self.x), self.u - self.x)
 
 
+@pytest.mark.slow
 def test_rough_inputs_of_many_samples_take_one_step_from_each_to_the_next():
     t, rng = np.linspace(0.0, 4.0, 20_001), np.random.default_rng(0)
     rough = {"u": (t, rng.standard_normal(len(t)).cumsum())}

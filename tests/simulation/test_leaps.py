@@ -121,6 +121,7 @@ def clipped(upper):
     return ac.compile(made)
 
 
+@pytest.mark.slow
 def test_a_clipped_sine_over_a_hundred_periods():
     angle = np.arcsin(0.9)
     area = (2 * np.cos(angle) - 0.9 * (np.pi - 2 * angle)) / (2 * np.pi)
@@ -271,6 +272,7 @@ class Counters(ac.Component):
             yield ac.When(wave > level, ac.Eq(count, ac.pre(count) + 1))
 
 
+@pytest.mark.slow
 def test_each_period_of_a_wave_in_a_condition_is_seen():
     sol = ac.simulate(ac.compile(Counters()), (0.0, 4.0))
     phi, rise = 20 * (4 + 8), np.arcsin(0.9999)

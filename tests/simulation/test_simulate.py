@@ -91,6 +91,7 @@ def test_auto_takes_an_implicit_solver_for_a_stiff_model():
 # -- inputs ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_sampled_inputs_equal_functions():
     ends = np.linspace(0, 3, 301)
     signal = ac.Signal(ends, force(ends))
@@ -121,6 +122,7 @@ def test_inputs_off_the_grid_are_read_at_stage_times():
     np.testing.assert_allclose(fixed.x[-1], adaptive.x[-1], rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_held_inputs_jump_where_they_jump():
     """A step of the force at 1 s: the response is the shifted step response."""
     step = ac.Signal([0.0, 1.0, 9.0], [0.0, 5.0, 5.0], "previous")
@@ -290,6 +292,7 @@ def test_adaptive_steps_have_derivatives_in_both_modes():
         jax.jacfwd(jax.grad(lambda theta: ends(theta)[0]))(theta)
 
 
+@pytest.mark.slow
 def test_gradient_by_samples_of_the_input():
     def end(samples):
         return ac.simulate(plain(), (0, 1), dt=0.1, inputs={"push.f": samples})["mass.s"][-1]
@@ -550,6 +553,7 @@ def test_steps_too_long_are_named_as_the_cause():
     assert "dt=1 s is too long for the model's fastest mode, 5 1/s at the start" in message
 
 
+@pytest.mark.slow
 def test_an_unstable_model_is_named_as_the_cause():
     unstable = Equations(
         "x v",
@@ -584,6 +588,7 @@ def test_a_model_without_a_real_solution_says_so_after_one_search(monkeypatch):
         assert 1000 < next(evaluations) - before < 100_000  # one search takes 25,000
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("source", [bl.Sine(f=1000.0), bl.Pulse(period=1e-3)])
 def test_points_further_apart_than_a_period_are_warned_of(source: ac.Component) -> None:
     class Fast(ac.Component):

@@ -69,6 +69,7 @@ def test_fixed_steps_are_damped_where_newtons_method_runs_around_the_solution() 
     assert float(x) == pytest.approx(10 - 100 * np.arctan(x), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_second_derivatives_go_through_multistep_and_one_step_methods() -> None:
     """``x' = -k x^3`` is at ``(1 + 2 k t)^-1/2``."""
     system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), -s.k * s.x**3)], k=2.0))
@@ -109,6 +110,7 @@ def test_implicit_schemes_choose_their_steps(name: str) -> None:
     np.testing.assert_allclose(found["x"], 1 - np.exp(-50 * saved), atol=2e-3)
 
 
+@pytest.mark.slow
 def test_stiff_models_with_events_have_sparse_steps() -> None:
     system = ac.compile(Thermostat(11))
     assert isinstance(system.state_jacobian.iteration_matrix, SparseIterationMatrix)
@@ -120,6 +122,7 @@ def test_stiff_models_with_events_have_sparse_steps() -> None:
     assert stored == pytest.approx(float(found["heat"][-1]), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_fixed_implicit_steps_are_differentiated_in_both_modes() -> None:
     system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), -s.k * s.x**3)], k=2.0))
 
@@ -131,7 +134,7 @@ def test_fixed_implicit_steps_are_differentiated_in_both_modes() -> None:
     assert float(forward) == pytest.approx(float(jax.jit(jax.grad(lambda k: end(k, None)))(2.0)))
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("name", ["implicit_euler", "kvaerno3"])
 def test_where_a_stage_has_no_solution_the_step_and_its_derivatives_are_not_numbers(name: str):
     """A training rejects such a trial; it must not end the program."""

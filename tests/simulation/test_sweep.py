@@ -46,6 +46,7 @@ def test_it_says_what_it_is(swept: ac.Sweep) -> None:
     assert "mass.s" in swept._ipython_key_completions_()
 
 
+@pytest.mark.slow
 def test_variants_are_selected_by_value(swept: ac.Sweep) -> None:
     one = swept.sel({"spring.c": 61.0, PUSH: 10.0})
     assert isinstance(one, Solution)
@@ -59,6 +60,7 @@ def test_variants_are_selected_by_value(swept: ac.Sweep) -> None:
     np.testing.assert_array_equal(last["mass.s"], swept["mass.s"][:, -1])
 
 
+@pytest.mark.slow
 def test_values_can_vary_together() -> None:
     over = {"spring.c": [40.0, 60.0, 80.0], "mass.s": [0.1, 0.2, 0.3]}
     found = ac.sweep(plain(), over, 1.0, dt=0.02, grid=False, inputs={PUSH: 5.0})

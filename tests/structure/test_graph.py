@@ -268,6 +268,7 @@ def test_an_equation_without_unknowns_is_too_much():
     assert found.unmatched_equations == (0,)
 
 
+@pytest.mark.slow
 def test_the_graph_needs_neither_sympy_nor_jax():
     # the files themselves: front doors import everything
     code = """

@@ -69,6 +69,7 @@ def test_a_long_equation_reads_a_few_values_for_each_derivative(monkeypatch):
     assert all(len(arguments) == 2 for arguments in made)  # time, and one parameter
 
 
+@pytest.mark.slow
 def test_the_work_for_a_transfer_function_is_in_proportion_to_its_coefficients():
     def calls(order):
         block = blocks.TransferFunction(a=1.0 + np.arange(order), b=[1.0, 2.0])

@@ -37,6 +37,7 @@ def angles(t: np.ndarray, phi: float, w: float) -> np.ndarray:
     return solve_ivp(rates, (0, t[-1]), [phi, w], "DOP853", t, rtol=1e-12, atol=1e-12).y[0]
 
 
+@pytest.mark.slow
 def test_a_pendulum_in_cartesian_coordinates_turns_over(pendulum: ac.System) -> None:
     assert pendulum.states == ("x", "y", "v", "w")
     found = ac.simulate(pendulum, 5.0, rtol=1e-8, atol=1e-10)
@@ -49,6 +50,7 @@ def test_a_pendulum_in_cartesian_coordinates_turns_over(pendulum: ac.System) -> 
     np.testing.assert_allclose(found.x[:, 0], found["x"], atol=1e-6)  # which the state follows
 
 
+@pytest.mark.slow
 def test_speeds_need_no_names() -> None:
     def stated(s: Equations) -> Iterator[ac.Eq]:
         yield Eq(der(der(s.x)), -s.f * s.x)
@@ -67,6 +69,7 @@ def rates_of(system: ac.System, x: np.ndarray) -> np.ndarray:
     return np.asarray(system.vector_field(0.0, x, None, system.parameters()))
 
 
+@pytest.mark.slow
 def test_its_starts_move_as_little_as_they_must(pendulum: ac.System) -> None:
     found = pendulum.initialize()
     assert found["w"] == pytest.approx(6.0)  # nobody has given it
@@ -84,6 +87,7 @@ def test_its_starts_move_as_little_as_they_must(pendulum: ac.System) -> None:
     assert abs(float(free.initial_state()[1])) == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_it_comes_to_rest_and_its_linearization_has_two_states() -> None:
     hanging = ac.compile(Pendulum(x=ac.Start(0.9), y=ac.Start(0.2)))
     np.testing.assert_allclose(hanging.initial_state(steady=True), [0, -1, 0, 0], atol=1e-9)
@@ -161,6 +165,7 @@ class Sleigh(ac.Component):
         yield Eq(self.vx * ac.sin(self.phi), self.vy * ac.cos(self.phi))
 
 
+@pytest.mark.slow
 def test_speeds_are_projected_alone_where_positions_are_free() -> None:
     system = ac.compile(Sleigh())
     assert system.states == ("vx", "vy", "phi")

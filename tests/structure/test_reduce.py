@@ -130,6 +130,7 @@ def test_prescribed_motion_by_an_open_input_asks_for_its_derivatives():
     assert worst(system) < 1e-12
 
 
+@pytest.mark.slow
 def test_signs_survive_differentiation():
     # x' = -v: in the twice differentiated constraint der(x) stands with both signs
     def stated(s):
@@ -207,6 +208,7 @@ def test_a_voltage_on_a_capacitor_is_differentiated():
 # -- higher index -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_pendulum_in_cartesian_coordinates():
     system = ac.compile(Pendulum(x=ac.Start(0.6, state="prefer"), y=ac.Start(-0.8)))
     assert system.states == ("x", "v")
@@ -226,6 +228,7 @@ def independent(model):
     return [found.name(int(s)) for s in found.states if s not in dependent]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("start", "state"), [((1.0, 0.0), "y"), ((0.0, -1.0), "x")])
 def test_states_are_chosen_that_work_where_the_model_starts(start, state):
     pendulum = Pendulum(x=ac.Start(start[0]), y=ac.Start(start[1]))
@@ -284,6 +287,7 @@ def test_constraints_between_relative_coordinates():
     assert worst(system) < 1e-12
 
 
+@pytest.mark.slow
 def test_piecewise_constraints():
     def stated(s):
         yield Eq(der(s.x), s.f)
@@ -370,6 +374,7 @@ def test_constraints_that_repeat_each_other_are_told():
 # -- loops --------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.cases(fast=1, slow=2)
 @pytest.mark.parametrize("n", some_slow([1, 2, 3, 4, 5], [3, 5]))
 def test_linear_loops(n):
     rng = np.random.default_rng(n)
@@ -422,6 +427,7 @@ def test_derivatives_in_a_loop():
     assert worst(ac.compile(Equations("x y", stated))) < 1e-12
 
 
+@pytest.mark.slow
 def test_a_divisor_that_is_zero_is_not_divided_by():
     # two springs in series, one of them without damping: f = c s + 0 v
     parts = {"x": Fixed(), "m": Mass(m=2.0)}
@@ -447,6 +453,7 @@ def diode_circuit(n=1, **law):
     return made
 
 
+@pytest.mark.slow
 def test_a_nonlinear_loop_and_its_implicit_gradient():
     system = ac.compile(diode_circuit())
     assert sizes(system) == [(3, 1, 1)]
@@ -485,6 +492,7 @@ def test_a_steep_diode_converges_from_afar(voltage):
     assert float(i) == pytest.approx(1e-12 * np.expm1(v / 0.026), rel=1e-6, abs=1e-15)
 
 
+@pytest.mark.slow
 def test_equal_loops_are_solved_side_by_side():
     few, many = ac.compile(diode_circuit(2)), ac.compile(diode_circuit(40))
     assert sizes(few) == [(3, 1, 2)]
@@ -733,6 +741,7 @@ def test_a_singular_model_is_explained(whole, told):
         ac.compile(whole())
 
 
+@pytest.mark.slow
 def test_index_reduction_of_a_rigid_chain_takes_time_in_proportion_to_its_length():
     def calls(n):
         profile = cProfile.Profile()

@@ -240,6 +240,7 @@ def test_gradients_of_a_simulation_in_every_mode():
         np.testing.assert_allclose(found, (values[1], slope), rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_dense_loop_with_many_terms_is_solved_as_a_matrix() -> None:
     n = 30
     matrix = np.random.default_rng(0).normal(size=(n, n)) + n * np.eye(n)

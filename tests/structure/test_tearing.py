@@ -121,6 +121,7 @@ def test_a_linkage_is_torn_at_its_joints_and_where_it_closes():
     assert [tears for *_, tears in loops(Linkage([0.3, 1.0, 0.7]))] == [2, 2, 5]
 
 
+@pytest.mark.slow
 def test_loops_with_many_tearing_variables_or_that_lose_digits_are_sparse():
     assert loops(Arm(12)) == [(SparseLoop, 116, None)]
     assert [kind for kind, *_ in loops(Net(6, lambda k: el.Conductor(G=1.0)))] == [SparseLoop]
@@ -185,6 +186,7 @@ def test_of_several_names_the_strongest_preference_counts():
     assert reduced.name(int(loop.unknowns[0][torn])) == "c"
 
 
+@pytest.mark.slow
 def test_a_torn_arm_moves_as_a_sparse_one(monkeypatch):
     torn = ac.compile(Arm(3))
     monkeypatch.setattr(blocks, "LARGE", 10)

@@ -87,6 +87,7 @@ def trained() -> ac.Fit:
     return train()
 
 
+@pytest.mark.slow
 def test_a_law_comes_out_without_options() -> None:
     fit = trained()
     v = jnp.linspace(*np.quantile(fit.arguments["damper.net"], [0.02, 0.98]), 50)
@@ -105,6 +106,7 @@ def test_a_law_comes_out_without_options() -> None:
     assert fit.step_error < 1e-3
 
 
+@pytest.mark.slow
 def test_windows_begin_at_rates_of_positions_where_speeds_are_not_measured() -> None:
     system = trained().system
     records = {"run": data().select(["push.f", "mass.s"])}
@@ -198,6 +200,7 @@ def test_a_fit_that_goes_on_in_finer_steps_is_one_fit(monkeypatch: pytest.Monkey
     assert fit.step_error < trained().step_error
 
 
+@pytest.mark.slow
 def test_a_stage_whose_updates_are_rejected_ends_and_the_others_go_on(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -527,6 +530,7 @@ class Rotor(ac.Component):
         yield ac.Eq(self.J * ac.der(self.w), self.tau - self.d * self.w)
 
 
+@pytest.mark.slow
 def test_steps_that_are_too_long_and_a_record_that_is_another_are_told() -> None:
     system, t = ac.compile(Rotor()), np.arange(0, 10, 0.25)
     records: dict[str, ac.Data] = {}
@@ -621,7 +625,7 @@ class Warm(ac.Component):
         yield ac.Eq(self.C * ac.der(self.T), self.q - self.G * self.T)
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("logged", ["when it changes", "at every sample"])
 def test_an_input_that_was_held_is_named(logged: str) -> None:
     """The same heat flow, once with times of its own, and once at the samples of the temperature."""

@@ -46,6 +46,7 @@ def changed(name: str) -> Bumped:
     return replace(law, heights=heights, stretched=None)
 
 
+@pytest.mark.cases(fast=2, slow=6)
 @pytest.mark.parametrize("name", LAWS)
 def test_a_changed_law_keeps_its_promises(name: str) -> None:
     law, kept = changed(name), kept_promises(LAWS[name](0))
@@ -62,6 +63,7 @@ def test_a_changed_law_keeps_its_promises(name: str) -> None:
     assert float(jnp.abs(shapes).max()) > 0.5
 
 
+@pytest.mark.cases(fast=2, slow=6)
 @pytest.mark.parametrize("name", LAWS)
 def test_areas_are_the_energies_of_bumps(name: str) -> None:
     law = changed(name)
@@ -112,6 +114,7 @@ def test_the_band_of_a_bounded_law_ends_at_its_bounds():
     assert high.tolist() == [4.0] * 3
 
 
+@pytest.mark.slow
 def test_bumps_are_narrow_where_a_law_is_steep() -> None:
     x = jnp.linspace(-1.5, 1.5, 1001)
     smooth, steep = (bumped_law(Tanh(width), SEEN) for width in (0.4, 0.02))
@@ -122,6 +125,7 @@ def test_bumps_are_narrow_where_a_law_is_steep() -> None:
     assert abs(at[np.argmin(half)]) < 0.05
 
 
+@pytest.mark.slow
 def test_bumps_of_several_arguments_are_products_and_few() -> None:
     seen = np.random.default_rng(0).normal(0.1, 0.4, (500, 5))
     laws = [bumped_law(ac.networks.Law(secondary=n)(0), seen[:, : n + 1]) for n in range(5)]

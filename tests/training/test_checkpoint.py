@@ -157,6 +157,7 @@ def test_a_checkpoint_is_not_overwritten_by_another_training(interrupted: Path):
     assert interrupted.read_bytes() == before
 
 
+@pytest.mark.slow
 def test_nothing_to_resume():
     with pytest.raises(ac.TrainingError, match=r"^resume=True needs a checkpoint to go on from"):
         train(resume=True)
@@ -267,6 +268,7 @@ def test_where_nothing_can_be_written_training_does_not_begin(
         train(checkpoint=tmp_path / "run")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("one_by_one")
 def test_training_survives_a_disk_that_is_full(tmp_path: Path):
     """Files cannot grow any more, as the system really does it: one warning on the way, one at the end."""

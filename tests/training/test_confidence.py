@@ -152,6 +152,7 @@ class TwoSprings(ac.Component):
         self.connect(self.push.flange, self.mass.flange_b)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_told_apart_is_said():
     fit = ac.fit(
         ac.compile(TwoSprings()), noisy(0, 0.0), "mass.a", x0="model", strategy="whole_record",
@@ -185,6 +186,7 @@ def test_a_spring_beside_a_law_that_can_take_its_part_is_not_called_known():
     assert sure.parameters["spring.c"] > 50 * sure.parameters["mass.m"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("promise", [{}, {"odd": True}, {"monotone": True}])
 def test_the_functions_that_a_law_can_add_keep_its_promises(promise: dict[str, Any]):
     x = np.linspace(-1.0, 1.0, 81)
@@ -255,6 +257,7 @@ def test_two_lags_are_enough_to_betray_colour():
     assert not residuals("y", [Piece(short, {})], 1.0).is_white
 
 
+@pytest.mark.slow
 def test_slow_noise_is_not_taken_for_what_a_slow_input_does():
     """Of 40 pairs that have nothing to do with each other; the bound of white noise would accuse most of them."""
     rng = np.random.default_rng(0)
@@ -303,6 +306,7 @@ def test_the_page_holds_everything_itself(tmp_path: Any):
     assert not re.search(r'(src|href)="(?!data:)', text)
 
 
+@pytest.mark.slow
 def test_a_path_that_ends_in_html_is_a_file(tmp_path: Any):
     assert trained().report(tmp_path / "a" / "training.html") == tmp_path / "a" / "training.html"
     assert (
@@ -329,6 +333,7 @@ def test_the_page_tells_what_was_learned_where(tmp_path: Any):
     assert (below.low, [c.label for c in below.curves]) == (True, ["before", "after"])
 
 
+@pytest.mark.slow
 def test_a_page_about_a_model_that_diverges(tmp_path: Any):
     """It has no laws to show, and says so; the curves stay by the measured ones."""
     with pytest.warns(UserWarning, match="diverge"):
@@ -382,7 +387,7 @@ def cell_record(size: float, seed: int) -> ac.Data:
     return ac.Data(t, {"i": i, "v": voltage(charge) + 0.005 * rng.standard_normal(len(t))})
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("sizes", [(1.0,), (1.0, 0.3)])
 def test_a_start_that_a_law_can_take_is_said_and_widens_its_band(sizes: tuple[float, ...]) -> None:
     """The law may be shifted by any charge, and the start with it."""
@@ -398,6 +403,7 @@ def test_a_start_that_a_law_can_take_is_said_and_widens_its_band(sizes: tuple[fl
     assert (miss < 4 * band.sigma[seen]).all()
 
 
+@pytest.mark.slow
 def test_a_start_is_unknown_beside_a_law_that_is_finer_than_the_bumps_of_its_band() -> None:
     t, rng = np.linspace(0.0, 30.0, 3001), np.random.default_rng(0)
     charge = 0.54 - 0.02 * t - 0.15 / 1.3 * (1 - np.cos(1.3 * t))
@@ -424,6 +430,7 @@ def test_a_start_that_is_trained_without_a_prior_is_said_to_be_taken_by_a_law() 
     assert fit.confidence().starts == {"charge": ("law",)}
 
 
+@pytest.mark.slow
 def test_a_start_that_is_given_beside_a_law_is_not_called_unknown() -> None:
     data = cell_record(1.0, 0)
     fit = ac.fit(cell(), data, ["v"], progress=False, x0={"charge": 0.7})
@@ -442,6 +449,7 @@ class Cooled(ac.Component):
         yield ac.Eq(ac.der(self.T), self.heat - self.law(self.T, self.fan))
 
 
+@pytest.mark.slow
 def test_bands_of_a_law_of_two_arguments_hold_the_truth_and_open_at_values_that_were_not_seen():
     def truth(T: Any, fan: Any) -> Any:
         return (0.3 + np.sqrt(fan)) * T
@@ -498,6 +506,7 @@ def box(*modifiers: str) -> ac.Fit:
     )
 
 
+@pytest.mark.slow
 def test_a_parameter_whose_effect_resembles_that_of_a_law_is_known_where_the_data_determine_it():
     fit = box("G")
     sure = fit.confidence()
@@ -506,6 +515,7 @@ def test_a_parameter_whose_effect_resembles_that_of_a_law_is_known_where_the_dat
     assert "hardly tell" not in repr(fit)
 
 
+@pytest.mark.slow
 def test_parameters_and_a_law_that_have_a_factor_in_common_are_not_called_known():
     fit = box("C", "G")
     sure = fit.confidence()

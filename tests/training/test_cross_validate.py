@@ -74,6 +74,7 @@ def test_each_record_is_left_out_in_turn():
     assert list(found.records) == ["a", "b", "c"]
 
 
+@pytest.mark.slow
 def test_a_fold_is_the_training_without_the_record():
     fold = by_record().folds[1]
     alone = ac.fit(plain(), {n: d for n, d in records().items() if n != "b"}, "mass.s", **OPTIONS)
@@ -122,6 +123,7 @@ def test_a_single_record_has_blocks_only():
     assert len(found.folds) == 2
 
 
+@pytest.mark.slow
 def test_what_is_left_out_has_no_gradient():
     """Neither in whole records nor in sequences, whatever state and parameter of their own they have."""
     problem = pose(

@@ -36,6 +36,7 @@ def late(n: int = 401, start: float = 0.0, kind: Any = "cubic", tau: float = TAU
     return ac.Data(t, {"push.f": force(t), **signals}, interpolation=kind)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("tau", [-TAU, TAU])
 def test_a_held_input_that_is_delayed_holds_its_last_sample(tau: float) -> None:
     """A delay below zero asks for what comes after the record's end: its last sample is held, as by `Signal`."""
@@ -222,6 +223,7 @@ def test_what_is_no_delay_is_refused(options: dict[str, Any], sentence: str) -> 
         problem({"a": late(60, kind="previous")}, **options)
 
 
+@pytest.mark.slow
 def test_the_equation_error_knows_no_late_sensors() -> None:
     with pytest.raises(ac.TrainingError, match=r"knows no delay or lag of a target, here 'mass.a'"):
         ac.fit(

@@ -199,6 +199,7 @@ class Sampled(ac.Component):
         yield ac.When(ac.sample(0, self.T), ac.Eq(self.u, self.r))
 
 
+@pytest.mark.slow
 def test_an_input_that_jumps_as_it_is_sampled_is_read_alike_by_derivatives() -> None:
     """At 10 s both instants differ by rounding; forward mode read the input before it jumped."""
     system, t = ac.compile(Sampled()), np.arange(0, 15, 0.05)

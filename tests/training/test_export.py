@@ -83,6 +83,7 @@ def test_other_forms(fit, tmp_path, ending):
     assert read(path)["files"][0]["name"] == path.name
 
 
+@pytest.mark.slow
 def test_the_card_tells_how_sure_it_is(fit, tmp_path):
     sure = fit.confidence()
     path = fit.export(tmp_path / "a.mlir", confidence=sure)

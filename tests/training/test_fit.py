@@ -95,6 +95,7 @@ def test_the_loss_of_sequences_is_that_of_simulations():
         assert float(values[i]) == pytest.approx(expected, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_substeps_are_smaller_steps():
     fine, coarse = problem(dt=0.0025), problem()
     start = learned().values(0.0, jnp.zeros(2), jnp.zeros(1), learned().parameters(0))
@@ -109,6 +110,7 @@ def test_substeps_are_smaller_steps():
     assert float(jnp.abs(ends[0] - ends[1]).max()) > 1e-6
 
 
+@pytest.mark.slow
 def test_uneven_records_are_integrated_from_sample_to_sample():
     time = np.sort(np.r_[0.0, np.random.default_rng(0).uniform(0, 5, 800), 5.0])
     true = ac.simulate(
@@ -152,6 +154,7 @@ def test_a_hardening_spring_is_learned():
     assert f"{fit.prepare_seconds:.3g} s to prepare" in repr(fit)
 
 
+@pytest.mark.slow
 def test_modifiers_find_a_mass_and_a_stiffness():
     true = record(cubic=0.0)
     params = plain().parameters() | {"mass.m": 2.0 * 1.1, "spring.c": 50 * 0.95}
@@ -179,6 +182,7 @@ def test_modifiers_stay_within_gamma():
         assert abs(chosen.changes({"mass.m": jnp.asarray(delta)})["mass.m"]) <= 0.3
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_weights():
     def run(seed):
         fit = ac.fit(learned(), record(), "mass.a", sequence_length=0.2, batch_size=3, epochs=20,
@@ -219,6 +223,7 @@ def test_an_optimizer_with_a_line_search():
     assert fit.loss < 0.3 * fit.loss_before
 
 
+@pytest.mark.slow
 def test_fixed_networks_stay():
     params = learned().parameters(0)
     fit = ac.fit(
@@ -228,6 +233,7 @@ def test_fixed_networks_stay():
     assert fit.params["extra.net"](0.3) == params["extra.net"](0.3)
 
 
+@pytest.mark.slow
 def test_regularizers_formulas():
     net, two = ac.MLP(output_scale=5.0, key=0), ac.MLP(2, key=1)
     seen = {"a": jnp.asarray([[0.1], [0.2]]), "b": jnp.asarray([[0.1, 3.0], [0.2, 4.0]])}
@@ -315,6 +321,7 @@ def test_a_diverging_sequence_is_left_out_and_told():
     )
 
 
+@pytest.mark.slow
 def test_the_good_sequences_give_the_gradient_they_give_alone():
     """With a bad sequence in the batch, the update is that of the others."""
     data = broken(slice(400, 500))
@@ -348,6 +355,7 @@ def test_too_many_rejections_end_the_training():
     assert message.endswith("or a smaller dt.")
 
 
+@pytest.mark.slow
 def test_a_training_that_diverges_names_the_state_that_runs_away_and_the_scales():
     with pytest.raises(ac.TrainingError) as error:
         ac.fit(
@@ -364,6 +372,7 @@ def test_a_training_that_diverges_names_the_state_that_runs_away_and_the_scales(
     assert "input_scale= and output_scale=, which are now 0.5 and 20 of 'extra.net'" in message
 
 
+@pytest.mark.slow
 def test_a_fit_that_is_no_better_than_the_mean_says_so():
     expected = r"no better than the targets' mean: its error is [\d.]+, that of the mean 1.41, that of the noise"
     with pytest.warns(UserWarning, match=expected):
@@ -374,6 +383,7 @@ def test_a_fit_that_is_no_better_than_the_mean_says_so():
     assert fit.loss > np.sqrt(2)
 
 
+@pytest.mark.slow
 def test_a_gradient_that_is_not_finite_is_rejected():
     def poison(params, context):
         m = params["mass.m"]
@@ -384,6 +394,7 @@ def test_a_gradient_that_is_not_finite_is_rejected():
                sequence_length=0.2, epochs=500, progress=False)  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_rejected_update_leaves_everything_as_it_was():
     """One gradient in the middle is not finite: the weights and Adam's moments stay, and training goes on."""
 
@@ -402,6 +413,7 @@ def test_a_rejected_update_leaves_everything_as_it_was():
     jax.tree.map(np.testing.assert_array_equal, after.optimizer, state.optimizer)
 
 
+@pytest.mark.slow
 def test_ctrl_c_returns_the_best_so_far():
     def interrupt(progress):
         if progress.epoch >= 60:
@@ -417,6 +429,7 @@ def test_ctrl_c_returns_the_best_so_far():
     assert "(interrupted)" in repr(fit)
 
 
+@pytest.mark.slow
 def test_progress_is_reported(capsys):
     seen = []
     ac.fit(learned(), record(), "mass.a", sequence_length=0.2, epochs=30, observers=[seen.append])
@@ -425,6 +438,7 @@ def test_progress_is_reported(capsys):
     assert capsys.readouterr().err == ""  # no terminal, no display
 
 
+@pytest.mark.slow
 def test_chunks_do_not_change_the_result(monkeypatch):
     def run():
         return ac.fit(

@@ -67,6 +67,7 @@ def test_both_ways_give_one_gradient(chosen: dict[str, Any]):
     np.testing.assert_allclose(a, b, rtol=1e-8, atol=1e-10 * float(jnp.abs(b).max()))
 
 
+@pytest.mark.slow
 def test_the_hessian_of_root_mean_squares_is_that_of_their_squares():
     """``J' J / ℓ``, of normalised errors, by finite differences of the predictions."""
     problem = posed()
@@ -154,6 +155,7 @@ def true() -> ac.Data:
     return ac.Data(ts, {**signals, "push.f": force})
 
 
+@pytest.mark.slow
 def test_parameters_and_the_first_state_are_found_exactly():
     fit = parameters()
     assert fit.history.epochs < 40  # of 50: it ends by itself, at 5e-16

@@ -68,6 +68,7 @@ def test_patience_ends_a_training():
     assert not fit.interrupted
 
 
+@pytest.mark.slow
 def test_what_is_held_out_never_moves_the_training():
     """With other samples there, all updates are the same."""
     data = noisy()
@@ -134,6 +135,7 @@ def test_a_training_goes_on_where_it_was_and_ends_where_it_would_have(
         train(checkpoint=tmp_path, resume=True, validation=0.5, patience=9)
 
 
+@pytest.mark.slow
 def test_the_next_part_begins_where_the_one_before_predicted_best():
     fit = train(strategy=("sequences", "whole_record"), epochs=(EPOCHS, 1), evaluate_every=EVERY)
     ended = trained().history.epochs
@@ -142,6 +144,7 @@ def test_the_next_part_begins_where_the_one_before_predicted_best():
     assert start == pytest.approx(trained().loss, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_patience_without_anything_held_out():
     """The whole record decides; an optimizer that stands still finds nothing better."""
     with pytest.warns(UserWarning, match=r"^Training did not move 'mass\.m'"):

@@ -23,7 +23,7 @@ def lag(time_constant: float, y: jax.Array = Y) -> jax.Array:
     return lagged(y, ROWS, jnp.asarray(time_constant), y[FIRST])
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("time_constant", [0.01, 0.2, 5.0])
 def test_a_lag_is_the_solution_of_its_equation(time_constant: float) -> None:
     found = lag(time_constant)

@@ -66,6 +66,7 @@ def element() -> ac.Component:
     return neural.Resistance(el.PositivePin, width=4, depth=1)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("solver", ["rk4", "kvaerno3"])
 def test_a_linear_law_is_found_closer_than_its_decade(solver: str) -> None:
     """By Gauss-Newton, in implicit steps, too."""
@@ -117,6 +118,7 @@ def test_laws_that_act_only_together_are_found_together() -> None:
     assert one * other / (one + other) * 1e3 == pytest.approx(1.0, rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_constant_that_nothing_determines_is_left_out() -> None:
     """The current of a coil whose start is not measured takes any constant of the current beside it."""
 
@@ -202,6 +204,7 @@ def test_a_law_without_constant_goes_along_in_files(tmp_path: Path) -> None:
         assert float(loaded(v)) == float(net(v))
 
 
+@pytest.mark.slow
 def test_a_relay_is_followed_from_the_start_for_ever_longer() -> None:
     """Nothing measured says whether it is on in the middle of a record."""
     problem = problem_of(
@@ -261,6 +264,7 @@ class Busy(ac.Component):
         yield ac.When(ac.sin(3e4 * self.y) > 0, ac.Eq(self.n, ac.pre(self.n) + 1))
 
 
+@pytest.mark.slow
 def test_a_trial_that_runs_from_event_to_event_is_given_up() -> None:
     problem = problem_of(Busy(), "x", x=np.exp(-T))
     free = problem.simulate(problem.start()).loss

@@ -146,7 +146,7 @@ def posed(loss: Any, **chosen: Any) -> Problem:
     return over_whole_record(build_problem(plain(), {"one": given}, TARGETS, params, options))
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize(
     "chosen",
     [
@@ -231,6 +231,7 @@ def test_the_levels_are_in_the_result(ml: ac.Fit):
         assert abs(float(ml.params[name]) / true - 1) < 4 * deviations[name]
 
 
+@pytest.mark.slow
 def test_given_noise_is_that_of_the_confidence(ml: ac.Fit):
     noise = {n: 3 * v for n, v in ml.noise.items()}
     fit = trained(noisy(), ac.Likelihood(noise=noise))
@@ -307,6 +308,7 @@ def test_samples_count_by_target_and_time():
     assert at_zero.tolist() == [2.0, 0.0]
 
 
+@pytest.mark.slow
 def test_sequences_are_drawn_as_often_as_they_count():
     data = {n: record(cubic=0.0, end=end) for n, end in {"long": 8.0, "short": 2.0}.items()}
     problem = problem_of(data, sequence_length=0.2, batch_size=500, record_weights="records")
@@ -320,6 +322,7 @@ def test_sequences_are_drawn_as_often_as_they_count():
     assert weight[of == 1].sum() == pytest.approx(weight[of == 0].sum(), rel=0.05)
 
 
+@pytest.mark.slow
 def test_another_weight_is_another_training(tmp_path: Any):
     data, file = noisy(end=1.0), tmp_path / "one.safetensors"
     chosen: dict[str, Any] = {"strategy": "whole_record", "epochs": 2, "checkpoint": file}

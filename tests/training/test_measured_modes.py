@@ -64,6 +64,7 @@ def test_a_training_takes_the_measured_mode(
     assert fit.params["G"] == pytest.approx(1.0, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_conditions_that_others_need_stay() -> None:
     class Both(Thermostat):
         n = ac.Discrete(0, kind="int")

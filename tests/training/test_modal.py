@@ -29,6 +29,7 @@ def context(system: ac.System) -> Context:
 # -- eigenvalues -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_eigenvalues_have_the_gradient_of_differences():
     rng = np.random.default_rng(0)
     A, weights = jnp.asarray(rng.normal(size=(6, 6))), rng.normal(size=(2, 6))

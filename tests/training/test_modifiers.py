@@ -86,6 +86,7 @@ class Wall(ac.Component):
         self.connect(self.push.flange, self.mass.flange_b)
 
 
+@pytest.mark.slow
 def test_a_list_of_names_leaves_parameters_free_within_their_declared_bounds():
     """Mass, stiffness and damping begin 50, 40 and 100 % off; a gamma of 0.2 stops them near its limits."""
     wrong = {"mass.m": 1.5 * M, "spring.c": 0.6 * C, "spring.d": 2.0 * D}
@@ -120,6 +121,7 @@ def test_a_free_parameter_stays_within_what_it_declares(
         assert "+50 %" in free.at_limit({"p": 0.499}, lambda name: "")["p"]
 
 
+@pytest.mark.slow
 def test_an_offset_is_found_from_zero_and_a_damping_within_its_bounds():
     time = np.linspace(0, 5, 501)
     wall = ac.compile(Wall())
@@ -144,6 +146,7 @@ def test_an_offset_is_found_from_zero_and_a_damping_within_its_bounds():
     assert "%" in summary[2]
 
 
+@pytest.mark.slow
 def test_a_bound_is_where_training_ends_that_wants_beyond():
     """The record's damping is 1 N s/m. A warning names it, and says that no deviation can be given."""
     expected = (
@@ -214,6 +217,7 @@ def test_mistakes_get_one_sentence(kind: Any, value: float, sentence: str):
     assert str(error.value) == sentence
 
 
+@pytest.mark.slow
 def test_a_parameter_that_leaves_its_range_is_told():
     """A damper that drives: only a shift lets it go there, and only a trained model may have it."""
     system, times = plain(), np.linspace(0, 2, 101)

@@ -98,6 +98,7 @@ def test_promises_hold_before_during_and_after_training() -> None:
     assert max(moved) > 1
 
 
+@pytest.mark.slow
 def test_regularizers_look_at_the_law_of_an_energy() -> None:
     energy = ac.networks.Energy(secondary=1, input_scale=0.5, output_scale=20.0)(0)
     seen = jnp.asarray([[0.3, 1.0], [-0.2, 2.0]])

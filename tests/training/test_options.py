@@ -87,6 +87,7 @@ def test_values_of_the_wrong_kind_get_one_sentence(given: Any, sentence: str) ->
     assert str(found.value) == sentence
 
 
+@pytest.mark.cases(fast=1, slow=2)
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
@@ -119,6 +120,7 @@ def test_a_strategy_of_sequences_has_sequences_of_a_default_length(given, length
     assert FitOptions.of("fit", given).sequence_length == length
 
 
+@pytest.mark.slow
 def test_the_default_length_is_of_measured_states():
     data = record(end=3.0)
 

@@ -195,6 +195,7 @@ class Falling(ac.Component):
         yield ac.Eq(ac.der(self.w), self.g * self.phi + self.u)
 
 
+@pytest.mark.slow
 def test_doubts_about_predictions_are_told() -> None:
     part = noisy(clean().between(10, 14), 2, "mass.s", "mass.v")
     assert not trained().predict(part)["record"].doubts

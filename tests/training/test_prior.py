@@ -120,6 +120,7 @@ def test_another_prior_is_another_training(
         trained(records["b"], prior=second, epochs=1, resume=True, **chosen)
 
 
+@pytest.mark.slow
 def test_members_of_an_ensemble_start_from_what_is_known(
     first: ac.Fit, records: dict[str, ac.Data]
 ):

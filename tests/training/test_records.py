@@ -57,6 +57,7 @@ def trained() -> ac.Fit:
     return train()
 
 
+@pytest.mark.slow
 def test_every_record_is_simulated_from_its_own_start_with_its_own_inputs():
     fit = trained()
     assert fit.modifiers == pytest.approx(
@@ -75,6 +76,7 @@ def test_every_record_is_simulated_from_its_own_start_with_its_own_inputs():
         assert max(found.rms.values()) < 1e-6
 
 
+@pytest.mark.slow
 def test_the_loss_is_that_of_all_samples():
     problem = pose()
     simulated = problem.simulate(problem.start())
@@ -103,7 +105,7 @@ def test_programs_do_not_grow_with_the_number_of_records():
     assert size(6) == size(2)
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize(
     "chosen",
     [
@@ -163,6 +165,7 @@ def test_beginnings_are_the_first_rows_of_every_record():
     np.testing.assert_array_equal(cut.records.y, whole.records.y[rows])
 
 
+@pytest.mark.slow
 def test_sequences_end_with_their_record():
     """A sequence that is longer than its record counts the rest of it with no weight."""
     problem = pose(sequence_length=3.0, batch_size=8)
@@ -180,6 +183,7 @@ def test_sequences_end_with_their_record():
     assert (of[starts] == 0).sum() == 1
 
 
+@pytest.mark.slow
 def test_a_sequence_that_diverges_names_its_record():
     data = dict(runs())
     spoilt = {n: v.copy() for n, v in data["medium"].signals.items()}
@@ -206,6 +210,7 @@ def thinned(data: ac.Data, seed: int = 0) -> ac.Data:
     return ac.Data(data.time, signals, missing="nan")
 
 
+@pytest.mark.slow
 def test_missing_samples_count_for_nothing():
     data = {n: thinned(d, i) for i, (n, d) in enumerate(runs().items())}
     fit = train(data, x0={"mass.s": 0.1, "mass.v": -0.2})
@@ -223,6 +228,7 @@ def test_missing_samples_count_for_nothing():
     assert np.isfinite(alone.confidence().parameters["mass.m"])
 
 
+@pytest.mark.slow
 def test_a_record_may_lack_a_target_that_others_have():
     data = runs() | {"long": runs()["long"].select(["mass.a", "push.f"])}
     fit = train(data)
@@ -236,6 +242,7 @@ def test_a_record_may_lack_a_target_that_others_have():
         train(without)
 
 
+@pytest.mark.slow
 def test_the_equation_error_bridges_short_gaps_and_leaves_out_long_ones():
     data = runs()["long"]
     signals = {n: v.copy() for n, v in data.signals.items()}
@@ -249,6 +256,7 @@ def test_the_equation_error_bridges_short_gaps_and_leaves_out_long_ones():
         assert fit.params[name] == pytest.approx(value, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_signals_with_times_of_their_own_are_compared_at_their_own_samples():
     data = runs()["long"]
     slow = np.arange(3, len(data), 10)
@@ -349,6 +357,7 @@ def test_a_tight_spread_ties_and_free_values_are_not_tied():
         )
 
 
+@pytest.mark.slow
 def test_a_new_record_gets_its_own_value_with_the_rest_frozen():
     _, fit = with_offsets()
     new = run(3.0, 7, **{"spring.c": 55.0})

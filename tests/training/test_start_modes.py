@@ -52,6 +52,7 @@ def without_mode(records: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]
     return {k: {n: v for n, v in r.items() if n != "on"} for k, r in records.items()}
 
 
+@pytest.mark.slow
 def test_first_samples_show_in_which_mode_a_record_begins(zone, records):
     fit = fitted(zone, without_mode(records))
     assert [float(fit.params[n]) for n in TRUE] == pytest.approx([*TRUE.values()], rel=0.02)
@@ -99,6 +100,7 @@ class Walled(Thermostat):
         yield ac.Eq(self.off, -self.on)
 
 
+@pytest.mark.slow
 def test_states_that_nobody_measures_do_not_hide_the_mode_nor_does_a_blurred_column():
     system, times = ac.compile(Walled()), np.linspace(0, 4, 81)
     records = {}
@@ -146,6 +148,7 @@ class Fanned(ac.Component):
         yield ac.When(self.T > 60, ac.Eq(self.fan, 1), otherwise=off)
 
 
+@pytest.mark.slow
 def test_a_parameter_that_is_off_is_not_taken_for_a_mode():
     """The body warms more slowly than the model says, as it would with the fan; with the fan on it cools instead."""
     t, data = np.linspace(0, 30, 31), {}

@@ -77,6 +77,7 @@ def test_a_start_that_is_not_measured_is_found_near_that_of_the_model():
     assert known.x0["mass.v"] != 0
 
 
+@pytest.mark.slow
 def test_starts_without_noise_are_exact():
     fit = ac.fit(plain(), record(cubic=0.0, end=3.0), ["mass.s"], modifiers=["mass.m"], **QUIET)
     assert fit.trained.starts is None
@@ -95,6 +96,7 @@ class Sledge(ac.Component):
         self.connect(self.mass.flange_b, self.push.flange)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("given", [{}, {"x0": {"mass.v": 0.0}}])
 def test_nothing_is_demanded_of_a_position_on_which_nothing_depends(given: dict[str, object]):
     t = np.linspace(0, 4, 201)
@@ -125,6 +127,7 @@ class Lag(ac.Component):
         yield ac.Eq(5 * self.T * ac.der(self.z), -self.z)
 
 
+@pytest.mark.slow
 def test_a_start_far_from_what_it_was_taken_to_be_is_told() -> None:
     system, t = ac.compile(Lag()), np.linspace(0, 3, 61)
     truth = ac.simulate(system, 3.0, saveat=t, inputs={"u": 1.0}, x0={"x": 0.0, "z": 6.0})
@@ -137,6 +140,7 @@ def test_a_start_far_from_what_it_was_taken_to_be_is_told() -> None:
     assert "found to start" not in str(known)
 
 
+@pytest.mark.slow
 def test_as_many_samples_as_numbers_are_no_proof() -> None:
     t = np.array([0.0, 1.0, 3.0])
     data = ac.Data(t, {"u": np.ones(3), "x": np.array([0.0, 1.3, 2.1])})
@@ -165,6 +169,7 @@ def behind(start: float, begin: float = 0.0) -> ac.Data:
     return ac.Data(t + begin, {"u": u, "y": 3 + z - 0.4 * np.exp(-6 * z) + noise})
 
 
+@pytest.mark.slow
 def test_a_start_that_the_model_fixes_is_exact() -> None:
     fit = ac.fit(ac.compile(Behind()), behind(0.9), ["y"], progress=False)
     assert fit.x0["z"] == 0.9
@@ -195,6 +200,7 @@ class Fading(ac.Component):
         yield ac.Eq(self.tau * ac.der(self.y), self.hidden + self.u - self.y)
 
 
+@pytest.mark.slow
 def test_a_fixed_start_that_the_record_does_not_have_is_named() -> None:
     t = np.linspace(0, 20, 201)
     given = {"u": np.sin(t) + np.sin(0.3 * t)}

@@ -104,6 +104,7 @@ def test_only_the_best_go_on():
     assert table.finished[order[:2]].all()
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_starts_and_another_one_others():
     again = train(epochs=2).starts
     assert again is not None
@@ -227,6 +228,7 @@ def test_starts_that_diverge_end_no_others(recwarn: pytest.WarningsRecorder):
     assert not [w for w in recwarn if "diverge" in str(w.message)]
 
 
+@pytest.mark.slow
 def test_an_interrupted_training_of_several_starts_goes_on(tmp_path: Path):
     fit = train(checkpoint=tmp_path, checkpoint_every=0.0, observers=[stop(14)])
     assert fit.interrupted
@@ -248,6 +250,7 @@ def test_parts_of_a_strategy_follow_each_other():
     assert fit.loss < 0.02
 
 
+@pytest.mark.slow
 def test_what_cannot_be_is_refused():
     with pytest.raises(ac.TrainingError, match="starts=0; give a whole number, 1 or more"):
         train(starts=0)

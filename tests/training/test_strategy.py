@@ -48,6 +48,7 @@ def descend(function: Any, start: Any, updates: int) -> tuple[Any, Any]:
     return x, state
 
 
+@pytest.mark.slow
 def test_lbfgs_follows_a_curved_valley():
     def rosenbrock(x: Any) -> Any:
         x = jnp.concatenate(x)
@@ -58,6 +59,7 @@ def test_lbfgs_follows_a_curved_valley():
     np.testing.assert_allclose(state.point, 1.0, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_lbfgs_takes_back_steps_to_where_there_is_no_value():
     _, state = descend(lambda x: jnp.sum(x - jnp.log(x) + (x - 3) ** 2), jnp.full(5, 0.01), 60)
     np.testing.assert_allclose(state.point, (5 + np.sqrt(33)) / 4, rtol=1e-6)
@@ -73,7 +75,7 @@ def test_lbfgs_says_when_it_finds_nothing_better():
 SCALES = np.logspace(0, 2, 10)
 
 
-@pytest.mark.cases(fast=5)
+@pytest.mark.cases(fast=1, slow=9)
 @pytest.mark.parametrize("times", [1.01, 1.1, 2.0, 10.0, 100.0])
 @pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
 def test_lbfgs_does_not_ruin_a_good_start(times: float, unit: float):
@@ -117,6 +119,7 @@ class Valley(eqx.Module):
         return {}
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("value", [True, False])
 def test_lbfgs_survives_a_trial_that_fails(value: bool):
     """The slope far from the kink lets the second trial be long, so that it leads beyond the edge."""
@@ -194,12 +197,14 @@ def equation_error() -> ac.Fit:
     )
 
 
+@pytest.mark.slow
 def test_the_equation_error_finds_a_law_without_simulation():
     fit = equation_error()
     assert fit.loss < 0.02 * fit.loss_before
     assert fit.history.epochs <= 100
 
 
+@pytest.mark.slow
 def test_segments_follow_each_other_from_the_best():
     fit = ac.fit(
         learned(), record(), "mass.a", strategy=("equation_error", "whole_record"),
@@ -278,6 +283,7 @@ def shooting() -> Any:
     )
 
 
+@pytest.mark.slow
 def test_sequences_lie_side_by_side():
     cut = shooting().sequences
     starts = np.sort(cut.draw(jax.random.key(0)).start)

@@ -74,6 +74,7 @@ def test_a_stream_describes_and_reads_one_record(stream):
         stream["run 7"]
 
 
+@pytest.mark.slow
 def test_the_training_is_that_of_the_same_records_in_memory(stream, monkeypatch):
     monkeypatch.setattr(read_ahead, "BYTES", 20_000)  # a few updates at a time
     found = train(stream)
@@ -82,6 +83,7 @@ def test_the_training_is_that_of_the_same_records_in_memory(stream, monkeypatch)
     assert found.problem.records.count == 4
 
 
+@pytest.mark.slow
 def test_it_is_evaluated_over_the_beginnings_of_records(stream, monkeypatch):
     monkeypatch.setattr(streamed, "SAMPLES_IN_MEMORY", 4 * 60)
     others = {"other": run(1.5, 9)}
@@ -91,6 +93,7 @@ def test_it_is_evaluated_over_the_beginnings_of_records(stream, monkeypatch):
     assert "the first 240 of 1104 samples" in str(found)
 
 
+@pytest.mark.slow
 def test_a_training_goes_on_from_its_checkpoint(stream, tmp_path, monkeypatch):
     monkeypatch.setattr(read_ahead, "BYTES", 40_000)
     monkeypatch.setattr(streamed, "SAMPLES_IN_MEMORY", 4 * 60)
@@ -111,6 +114,7 @@ def test_a_training_goes_on_from_its_checkpoint(stream, tmp_path, monkeypatch):
         )
 
 
+@pytest.mark.slow
 def test_sequences_that_diverge_are_named_by_record_and_time(stream):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -152,6 +156,7 @@ def test_what_needs_whole_records_refuses_a_stream(stream, chosen, named):
         train(stream, **chosen)
 
 
+@pytest.mark.slow
 def test_members_are_trained_on_workers(stream):
     found = ac.ensemble(
         plain(), stream, "mass.a", members=2, executor=ThreadPoolExecutor, progress=False, epochs=2,

@@ -290,6 +290,7 @@ def test_what_is_written_is_read(tmp_path_factory, rows, separator, decimal, emp
     np.testing.assert_array_equal(data.time, np.arange(len(rows)) + 0.5)
 
 
+@pytest.mark.slow
 def test_a_large_file_is_not_held_as_python_numbers(write):
     n = 200_000
     path = write("time,x,y\n" + "".join(f"{i},{i},\n" for i in range(n)))

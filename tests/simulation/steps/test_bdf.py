@@ -71,6 +71,7 @@ def test_robertson_over_nine_decades():
     assert int(found.statistics.factorizations) < 150
 
 
+@pytest.mark.slow
 def test_a_model_that_becomes_stiff_changes_its_method_by_itself():
     """Van der Pol's oscillator with µ = 1000: explicit steps would be a million."""
     system, ts = van_der_pol(), np.linspace(0, 700, 15)
@@ -166,6 +167,7 @@ def plate() -> ac.System:
     return ac.compile(Plate(11))
 
 
+@pytest.mark.slow
 def test_a_sparse_plate_keeps_its_energy(plate: ac.System):
     found = ac.simulate(plate, (0, 50), saveat=np.linspace(0, 50, 6), rtol=1e-8, atol=1e-8)
     capacity = np.array([1.0 + i % 7 for i in range(121)])
@@ -204,7 +206,7 @@ def _half_wave(s: Any) -> list[Any]:
     ]
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("solver", ["bdf", "auto"])
 def test_a_diode_that_blocks_hard_opens_in_time(solver: str) -> None:
     """With the derivatives of the blocking branch, 5e10 1/s, corrections are tiny on the other one, too."""

@@ -126,7 +126,7 @@ class Triggered(Follower):
         return ac.When(self.c > 1, ac.Eq(self.h, self.b))
 
 
-@pytest.mark.cases(fast=1, slow=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("model", [Follower, Triggered])
 def test_a_jump_that_a_discrete_variable_follows_is_an_event(model: Any) -> None:
     """x = k t^2 / 2 up to 1, which it reaches at t = (2 / k)^1/2; from then on 1 more a second."""

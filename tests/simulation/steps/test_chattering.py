@@ -42,7 +42,7 @@ def test_a_boost_converter_has_the_events_of_its_switch_alone() -> None:
     np.testing.assert_allclose(run["c.v"][-1], 33.14408, rtol=1e-5)
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize(
     "ramps", [{"rising": 0.0}, {"falling": 0.0}, {"rising": 0.0, "falling": 0.0}]
 )
@@ -76,7 +76,7 @@ class Level(ac.Component):
         yield ac.When(self.h < 0, ac.Reinit(self.h, self.to))
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("options", [{}, {"dt": 0.01}], ids=["adaptive", "fixed"])
 @pytest.mark.parametrize("to", [0.0, 1e-12])
 def test_a_state_that_is_set_to_its_own_threshold_has_events_without_end(
@@ -110,6 +110,7 @@ class Doubted(ac.Component):
         yield ac.Eq(ac.der(self.x), 1 - self.off)
 
 
+@pytest.mark.slow
 def test_a_circle_of_rounding_ends_and_one_of_numbers_does_not() -> None:
     system = ac.compile(Doubted(rounding=1e-13))
     np.testing.assert_allclose(ac.simulate(system, 2)["x"][-1], 2, atol=1e-6)
@@ -117,6 +118,7 @@ def test_a_circle_of_rounding_ends_and_one_of_numbers_does_not() -> None:
         ac.simulate(system, 2, params={"rounding": 1e-6})
 
 
+@pytest.mark.slow
 def test_a_ball_that_comes_to_rest_does_not_fall_through_the_floor() -> None:
     system = ac.compile(Ball())
     for e in (0.8, 0.5, 0.4, 0.3, 0.05):

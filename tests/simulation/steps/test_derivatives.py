@@ -44,7 +44,7 @@ def central(function: Any, at: tuple[float, ...], i: int, change: float = 1e-6) 
     return (float(function(*up)) - float(function(*down))) / (2 * change)
 
 
-@pytest.mark.cases(fast=2)
+@pytest.mark.cases(fast=0, slow=4)
 @pytest.mark.parametrize("kind", STEPS)
 @pytest.mark.parametrize("bounces", [1, 2, 5])
 def test_a_bouncing_ball(ball: ac.System, kind: str, bounces: int) -> None:
@@ -122,6 +122,7 @@ def test_a_sampling_period_is_trained(kind: str) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", some_slow(STEPS, [], [k for k in STEPS if k != "fixed"]))
 def test_an_event_at_the_end_moves_and_the_end_does_not(kind: str) -> None:
     system = ac.compile(Sampled())
@@ -135,6 +136,7 @@ def test_an_event_at_the_end_moves_and_the_end_does_not(kind: str) -> None:
         assert derivative(end)(0.1) == pytest.approx(below, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", some_slow(STEPS, [], [k for k in STEPS if k != "fixed"]))
 def test_a_switching_time_and_a_threshold_of_a_later_event(step: ac.System, kind: str) -> None:
     def late(t1: Any, threshold: Any) -> Any:
@@ -235,7 +237,7 @@ class _Late(ac.Component):
         yield ac.When(self.x > self.level, ac.Eq(self.begun, ac.time))
 
 
-@pytest.mark.cases(fast=1)
+@pytest.mark.cases(fast=0, slow=2)
 @pytest.mark.parametrize("at", [(0.2, 0.4), (0.23, 0.41)], ids=["on the grid", "within steps"])
 def test_an_edge_that_an_event_moves_has_a_gradient_where_fixed_steps_end(at: Any) -> None:
     with warnings.catch_warnings():
@@ -261,6 +263,7 @@ class _LearnedThreshold(ac.Component):
         yield ac.Eq(ac.der(self.x), ac.where(slow, 1, 2, events=True))
 
 
+@pytest.mark.slow
 def test_a_network_in_conditions_alone_has_forward_derivatives_through_implicit_steps() -> None:
     system = ac.compile(_LearnedThreshold())
     net = system.parameters()["threshold"]

@@ -19,6 +19,7 @@ def thermostat() -> ac.System:
     return ac.compile(Thermostat())
 
 
+@pytest.mark.slow
 def test_a_thermostat_switches_where_it_should(thermostat: ac.System) -> None:
     sol = ac.simulate(thermostat, (0.0, 9.0), rtol=1e-9, atol=1e-11)
     assert [e.condition for e in sol.events] == ["T < low", "T < high"] * 3
@@ -41,6 +42,7 @@ def test_fixed_steps_end_at_events_too(thermostat: ac.System) -> None:
     assert [e.condition for e in coarse.events] == ["T < low", "T < high"] * 3
 
 
+@pytest.mark.slow
 def test_a_solution_is_read_and_written_as_any_other(thermostat: ac.System, tmp_path: Any) -> None:
     sol = ac.simulate(thermostat, (0.0, 3.0), saveat=[0.0, 1.0, 3.0])
     assert sol.to_dataframe(["T", "on"]).shape == (3, 2)
@@ -48,6 +50,7 @@ def test_a_solution_is_read_and_written_as_any_other(thermostat: ac.System, tmp_
     assert "on []" in (tmp_path / "run.csv").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_initial_conditions_and_events_at_the_start() -> None:
     class Starts(ac.Component):
         x = ac.Variable(start=2.0, fixed=True)
@@ -67,6 +70,7 @@ def test_initial_conditions_and_events_at_the_start() -> None:
     np.testing.assert_allclose(sol["counted"], [1, 2, 3, 3])
 
 
+@pytest.mark.slow
 def test_samplers_with_periods_that_floats_do_not_divide_meet() -> None:
     class Two(ac.Component):
         a = ac.Discrete(0, kind="int")
@@ -86,6 +90,7 @@ def test_samplers_with_periods_that_floats_do_not_divide_meet() -> None:
     assert [float(sol[n][0]) for n in ("a", "b", "together")] == [31, 11, 11]
 
 
+@pytest.mark.slow
 def test_otherwise_and_several_conditions() -> None:
     class Order(ac.Component):
         x = ac.Variable(start=0.0, fixed=True)
@@ -100,6 +105,7 @@ def test_otherwise_and_several_conditions() -> None:
     np.testing.assert_allclose(sol["mode"], [0, 1])
 
 
+@pytest.mark.slow
 def test_one_of_several_conditions_comes_true_while_another_holds() -> None:
     class Both(ac.Component):
         x = ac.Variable(start=0.0, fixed=True)
@@ -116,6 +122,7 @@ def test_one_of_several_conditions_comes_true_while_another_holds() -> None:
     assert [float(sol[n][0]) for n in ("each", "joined")] == [2, 1]
 
 
+@pytest.mark.slow
 def test_ideal_diodes_in_a_loop_find_their_branch() -> None:
     class Rectifier(ac.Component):
         """Two branches of a diode and a resistance from one source: ``off`` and the current depend on each other."""
@@ -208,6 +215,7 @@ def test_a_period_of_zero_is_refused() -> None:
         ac.sample(0, 0)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("period", [0.0, -0.1])
 def test_a_parameter_that_is_no_period_is_refused(period: float) -> None:
     with pytest.raises(ac.SimulationError, match=r"'sample\(0, period\)' is .*not above zero"):
@@ -227,6 +235,7 @@ def test_a_condition_on_an_undefined_name_is_refused() -> None:
         ac.compile(Unknown())
 
 
+@pytest.mark.slow
 def test_a_model_that_slides_along_a_condition_is_stopped_and_named() -> None:
     class Slides(ac.Component):
         x = ac.Variable(start=1.0, fixed=True)
@@ -238,6 +247,7 @@ def test_a_model_that_slides_along_a_condition_is_stopped_and_named() -> None:
         ac.simulate(ac.compile(Slides()), (0.0, 1.0))
 
 
+@pytest.mark.slow
 def test_a_circle_of_discrete_variables_is_named() -> None:
     with pytest.raises(
         ac.AcausalError, match=r"At the start .*: 'n' change each other without end"
@@ -245,6 +255,7 @@ def test_a_circle_of_discrete_variables_is_named() -> None:
         ac.simulate(ac.compile(Broken("circle")), (0.0, 1.0))
 
 
+@pytest.mark.slow
 def test_a_circle_that_closes_later_is_named() -> None:
     class Later(ac.Component):
         x = ac.Variable(start=1.0, fixed=True)
@@ -282,6 +293,7 @@ class Blinks(ac.Component):
                 yield ac.When(ac.time > ac.pre(self.t0) + 1, ac.Eq(self.t0, ac.time), counts)
 
 
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("steps", [{}, {"dt": 0.01}], ids=str)
 @pytest.mark.parametrize("again", ["t0 = time", "t0 = pre(t0) + 1"])
 def test_a_condition_whose_time_moves_with_what_it_sets_is_a_circle(again: str, steps: Any) -> None:
@@ -289,11 +301,13 @@ def test_a_condition_whose_time_moves_with_what_it_sets_is_a_circle(again: str, 
         ac.simulate(ac.compile(Blinks(again=again)), (0.0, 3.5), **steps)
 
 
+@pytest.mark.slow
 def test_a_timer_that_starts_itself_again_by_what_was_before() -> None:
     run = ac.simulate(ac.compile(Blinks(again="pre")), (0.0, 5.5))
     np.testing.assert_allclose((run["n"][-1], run["x"][-1]), (5, 12.5))
 
 
+@pytest.mark.slow
 def test_values_that_differ_by_rounding_alone_end_an_event(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -319,6 +333,7 @@ def test_values_that_differ_by_rounding_alone_end_an_event(
     np.testing.assert_allclose((run["n"][-1], run["last"][-1]), (1, 3.2))
 
 
+@pytest.mark.slow
 def test_a_band_is_seen_however_soon_it_is_passed() -> None:
     class Passes(ac.Component):
         x = ac.Variable(start=0.0, fixed=True)
@@ -333,6 +348,7 @@ def test_a_band_is_seen_however_soon_it_is_passed() -> None:
     np.testing.assert_allclose((run["inside"][-1], run["outside"][-1]), (2.9999, 3.0001))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [{}, {"dt": 0.01}, {"dt": 0.5}], ids=str)
 def test_a_ball_that_bounces_for_ever_is_stopped_and_named(steps: Any) -> None:
     with pytest.raises(ac.SimulationError, match="h < 0"):
@@ -344,6 +360,7 @@ def test_a_solver_that_looks_back_is_refused() -> None:
         ac.simulate(ac.compile(Ball()), (0.0, 1.0), solver="bdf")
 
 
+@pytest.mark.slow
 def test_a_discrete_variable_may_be_a_derivative() -> None:
     class Counted(ac.Component):
         x = ac.Variable(fixed=True)
@@ -380,6 +397,7 @@ class Clamped(ac.Component):
         yield ac.When(conditions[self.which], ac.Reinit(self.x, 0))
 
 
+@pytest.mark.cases(fast=1, slow=2)
 @pytest.mark.parametrize("which", ["in part", "by a variable", "by a discrete variable"])
 def test_a_level_that_is_clamped_at_its_threshold_does_not_run_away(which: str) -> None:
     with pytest.raises(ac.SimulationError, match="events follow each other without end"):
@@ -400,6 +418,7 @@ class BetweenWalls(ac.Component):
         yield ac.When(~(above & below), ac.Reinit(self.x, wall), ac.Reinit(self.v, -ac.pre(self.v)))
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("steps", [{}, {"dt": 0.01, "solver": "rk4"}])
 def test_a_comparison_in_a_when_is_what_its_condition_has_become(steps: dict[str, Any]) -> None:
     sol = ac.simulate(ac.compile(BetweenWalls()), 30.0, **steps)
@@ -410,6 +429,7 @@ def test_a_comparison_in_a_when_is_what_its_condition_has_become(steps: dict[str
         assert event.after.get("x", 0.0) == pytest.approx(event.before.get("x", 0.0), abs=1e-6)
 
 
+@pytest.mark.cases(fast=1, slow=1)
 @pytest.mark.parametrize("dt", [1e-3, 5e-4])
 def test_an_event_may_fall_on_the_end_of_a_fixed_step(dt: float) -> None:
     class HalfWaves(ac.Component):
@@ -424,6 +444,7 @@ def test_an_event_may_fall_on_the_end_of_a_fixed_step(dt: float) -> None:
     np.testing.assert_allclose([e.t for e in sol.events], [0.01, 0.02, 0.03, 0.04, 0.05])
 
 
+@pytest.mark.slow
 def test_a_clock_that_is_too_fast_for_its_times_is_refused() -> None:
     system = ac.compile(Sampled(period=1e-12))
     name, times = system.states[0], np.asarray([0.0, 0.25, 0.5])
@@ -446,6 +467,7 @@ class _Switched(ac.Component):
         yield ac.When(ac.time > self.at, ac.Eq(self.on, 1))
 
 
+@pytest.mark.slow
 def test_an_event_that_rounding_parts_from_the_end_of_an_implicit_step_costs_no_accuracy() -> None:
     system = ac.compile(_Switched())
     steps: dict[str, Any] = {"dt": 0.02, "solver": "kvaerno3"}
@@ -456,6 +478,7 @@ def test_an_event_that_rounding_parts_from_the_end_of_an_implicit_step_costs_no_
     assert beside["on"][-1] == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("read", [lambda run: run.events[0].t, lambda run: run.after["v"][0]])
 def test_events_are_refused_where_derivatives_are_taken(read: Any) -> None:
     """They have none: zero would be taken for one."""

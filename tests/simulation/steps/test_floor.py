@@ -144,6 +144,7 @@ class Counted(ac.Component):
         yield ac.Eq(self.last, ac.where(now, self.x, ac.pre(self.last)))
 
 
+@pytest.mark.slow
 def test_in_equations_of_discrete_variables_all_integers_jump_at_events():
     times = np.arange(0.1, 3, 0.25)
     sol = ac.simulate(ac.compile(Counted()), (0, 3), saveat=times)

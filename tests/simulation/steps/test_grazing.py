@@ -40,6 +40,7 @@ def thrown(shot: ac.System, top: float) -> ac.Solution:
     return ac.simulate(shot, (0.0, 0.7), params=params, dt=0.01, solver="rk4")
 
 
+@pytest.mark.slow
 def test_an_event_says_where_its_condition_grazes(shot: ac.System) -> None:
     up, _ = thrown(shot, HIGHEST - 1e-12).events
     assert up.grazes
