@@ -651,7 +651,7 @@ class System(LeavesCaches):
     def modes(self, values: Values, *, ticks: bool = True) -> Values:
         """The same values with the discrete variables that agree with them, found from these or from their own starts.
 
-        States that jump at once have done so; what is due at this time has happened, as a clock's tick, if it ``ticks``.
+        States that jump at once have done so; what is due now, such as a clock's tick, has happened if it ``ticks``.
         """
         if self.events is None:
             return values

@@ -30,7 +30,12 @@ from acausal.flattening.foreseen import (
 from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.leaves_caches import LeavesCaches as LeavesCaches
-from acausal.flattening.origin import Origin as Origin, dotted as dotted, is_hidden as is_hidden
+from acausal.flattening.origin import (
+    HIDDEN as HIDDEN,
+    Origin as Origin,
+    dotted as dotted,
+    is_hidden as is_hidden,
+)
 from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,

@@ -6,6 +6,7 @@ its slots. Values and starts given by expressions are checked, too, and connecte
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -16,6 +17,7 @@ import sympy as sp
 
 from acausal.errors import UnitError, shortened, shown, warn
 from acausal.flattening import (
+    HIDDEN,
     Binding,
     EquationGroup,
     FlatModel,
@@ -30,6 +32,8 @@ from acausal.units.dimensions import NUMBER, SECOND, Dimension, described, dimen
 from acausal.units.infer import Finding, Signature, SlotDimensions, examine, is_small
 
 MAX_LISTED = 12
+TICKS = re.compile(rf"pre\({HIDDEN}\[\d+\]\)")
+"""How often a clock has ticked."""
 
 
 def check_dimensions(flat: FlatModel) -> None:
@@ -152,11 +156,14 @@ def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
             continue
         group = _with_numbers(flat, stated, least=False)
         slots = _slots(group, measures)
-        finding = examine(group.template.residual, slots)
+        finding, origin = examine(group.template.residual, slots), group.origins[0]
+        is_clock = origin.text.startswith("sample(")
+        if is_clock and any(cls == origin.cls and origin.text in wrong for cls, wrong in found):
+            continue  # its ticks are counted by the times that are wrong
         if finding is not None:
-            origin = group.origins[0]
             hint = _hint(group.template, slots, finding)
-            wrong = f"'{shortened(origin.text)}': {finding.reason}{hint}"
+            reason = TICKS.sub("k", finding.reason)
+            wrong = f"'{shortened(origin.text)}': {reason}{hint}"
             names = [flat.layout.paths[i] for i in group.components]
             found.setdefault((origin.cls, wrong), []).extend(names)
     for (cls, wrong), names in found.items():

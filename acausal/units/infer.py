@@ -188,8 +188,8 @@ def _alike(walk: _Walk, expression: Any) -> Dimension | None:
 def _sum(walk: _Walk, expression: Any) -> Dimension | None:
     """A sum; temperatures on two scales are added only as differences on each, or beside a number such as 273.15.
 
-    Where a term is neither, such as a product, the scales are not compared. A bracket's factor may have a dimension, and
-    has been multiplied out, as in ``3*x - 3*y``: what has equal factors and one dimension is compared as in the bracket.
+    Where a term is neither, such as a product, the scales are not compared. A bracket's factor may have a dimension,
+    and sympy multiplies it out: terms of one dimension with equal factors, ``3*x - 3*y``, are compared as in it.
     """
     for bracket in _multiplied_out(walk, expression):
         _sum(walk, bracket)

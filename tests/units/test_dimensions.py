@@ -337,6 +337,10 @@ WRONG: dict[str, tuple[Callable[[Any], Any], str]] = {
     "a whole number": (lambda s: (s.x, s.s + ac.floor(s.f)), "but 'floor(f)' in N (force)"),
     "a remainder": (lambda s: (s.x, sp.Mod(s.s, s.p)), "'s' is in m (length) but 'p' in Pa"),
     "time": (lambda s: (s.s, s.a * ac.time), "'s' is in m (length) but 'a*time' in m/s (speed)"),
+    "a bracket whose factor is multiplied out": (
+        lambda s: (s.f, -3.0 * (s.Tc - s.T) - 2 * s.v),
+        "'Tc' is in degC (temperature) but 'T' in K (temperature)",
+    ),
     "a prescribed motion": (
         lambda s: (s.s2, ac.prescribed(s.s, s.f)),
         "'f', derivative 1 of 's', is in N (force) but must be in m/s (speed)",
@@ -372,6 +376,22 @@ def test_wrong_equations(name: str) -> None:
     assert message.startswith("Stated 'part': '")
     assert sentence in message
     assert refused(model(part=Stated(initial=equation))) == message
+
+
+@pytest.mark.parametrize(("unit", "told"), [("ms", "0.001 s (time)"), ("kg", "kg (mass)")])
+def test_the_period_of_a_clock_is_in_seconds(unit: str, told: str) -> None:
+    class Clock(ac.Component):
+        start = ac.Parameter(0.0, unit="s")
+        period = ac.Parameter(5.0, unit=unit)
+        n = ac.Discrete(0, kind="int")
+
+        def equations(self) -> Iterator[Any]:
+            tick = ac.sample(self.start, self.period)
+            yield ac.When(tick, ac.Eq(self.n, ac.pre(self.n) + 1))
+
+    message = refused(Clock())
+    assert f"'sample(start, period)': 'start' is in s (time) but 'period*k' in {told}" in message
+    assert message.count("sample(") == 1
 
 
 RIGHT: dict[str, Callable[[Any], Any]] = {
