@@ -9,7 +9,14 @@ from typing import Any
 import sympy as sp
 
 from acausal.modeling.arrays import elementwise, is_array
-from acausal.modeling.symbols import Compared, ModuleCall, RealFunction, number_or_expression, time
+from acausal.modeling.symbols import (
+    Compared,
+    ModuleCall,
+    OfOne,
+    RealFunction,
+    number_or_expression,
+    time,
+)
 
 
 def _of_expressions(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -55,32 +62,20 @@ sin, sinh, sqrt, tan, tanh = map(_of_expressions, (sp.sin, sp.sinh, sp.sqrt, sp.
 maximum, minimum = _of_expressions(sp.Max), _of_expressions(sp.Min)
 
 
-class Abs(sp.Abs):
+class Abs(OfOne, sp.Abs):
     """The absolute value of a real number (sympy's own expects complex ones, as in ``Abs(log(x))``)."""
 
-    def __new__(cls, argument: Any, **options: Any) -> Any:
-        """Of an expression, a number or an array; sympy would read a text."""
-        if is_array(argument):
-            return elementwise(cls, argument)
-        return super().__new__(
-            cls, number_or_expression(argument, "what Abs(...) takes"), **options
-        )
+    TAKES = "what Abs(...) takes"
 
     def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
         argument: Any = self.args[0]
         return sign(argument) * argument.diff(s)
 
 
-class sign(sp.sign):  # noqa: N801 (a mathematician's name)
+class sign(OfOne, sp.sign):  # noqa: N801 (a mathematician's name)
     """-1, 0 or 1; piecewise constant, so its derivative counts as zero."""
 
-    def __new__(cls, argument: Any, **options: Any) -> Any:
-        """Of an expression, a number or an array; sympy would read a text."""
-        if is_array(argument):
-            return elementwise(cls, argument)
-        return super().__new__(
-            cls, number_or_expression(argument, "what sign(...) takes"), **options
-        )
+    TAKES = "what sign(...) takes"
 
     def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
         return sp.S.Zero

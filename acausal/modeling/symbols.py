@@ -203,18 +203,24 @@ class RealFunction(sp.Function):
         return True
 
 
-class der(RealFunction):  # noqa: N801 (Modelica's name)
+class OfOne:
+    """A function of an expression, a number or an array; sympy would read a text."""
+
+    TAKES = ""
+
+    def __new__(cls, argument: Any, **options: Any) -> Any:
+        """The function of it, or of each element."""
+        if is_array(argument):
+            return elementwise(cls, argument)
+        made: Any = super().__new__
+        return made(cls, number_or_expression(argument, cls.TAKES), **options)
+
+
+class der(OfOne, RealFunction):  # noqa: N801 (Modelica's name)
     """Time derivative of a variable, or of an expression of variables."""
 
     nargs = 1
-
-    def __new__(cls, argument: Any, **options: Any) -> Any:
-        """Of an expression, a number or an array; sympy would read a text."""
-        if is_array(argument):
-            return elementwise(cls, argument)
-        return super().__new__(
-            cls, number_or_expression(argument, "what der(...) differentiates"), **options
-        )
+    TAKES = "what der(...) differentiates"
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """Refused: total derivatives are taken when equations become templates."""
