@@ -11,7 +11,7 @@ from numpy import isnan, ndarray
 from acausal.errors import DataError, listing
 from acausal.reporting.plot import (
     TRUTH,
-    UncertainCurve,
+    Band,
     new_axes,
     one_axes,
     plot_band,
@@ -61,7 +61,7 @@ def plot_over_time(
 def plot_predictions(
     time: Float[ndarray, " n"],
     measured: Float[ndarray, "n n_names"],
-    predicted: Mapping[str, UncertainCurve],
+    predicted: Mapping[str, Band],
     units: Mapping[str, str],
 ) -> Figure:
     """Plot signals as measured (NaN where they are not) and as predicted with bands, one below another."""

@@ -1,8 +1,9 @@
-"""What plots with matplotlib share, which is installed on request: axes, colours; and plots of learned functions."""
+"""What plots with matplotlib share, which is installed on request: axes, colours; and learned functions and bands."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import partial
 from itertools import cycle
 from typing import TYPE_CHECKING, Any, Protocol
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from numpy.typing import ArrayLike
 
 from acausal.errors import AcausalError, DataError, need_package, shown
@@ -106,28 +107,53 @@ class InputStatistics(Protocol):
         ...
 
 
-class UncertainCurve(Protocol):
-    """A curve with its standard deviation, such as `Confidence.laws`."""
+@dataclass(frozen=True, eq=False)
+class Band:
+    """A learned law over its first argument, or a prediction over time, with its standard deviation.
 
-    @property
-    def x(self) -> Float[np.ndarray, " points"]:
-        """The argument or the time."""
-        ...
+    Attributes:
+        x: the argument or the time.
+        law, sigma: mean and standard deviation there.
+        sign: of the law where its promises settle it, 1 or −1; else 0. `bounds` are within it.
+        limits: the least and the largest value that the law can have, likewise.
+        rising: 1 for a law that never falls, −1 for one that never rises, else 0; neither do its `bounds` then.
+        held: other arguments of a law, at values that were seen together, near their mean.
+    """
 
-    @property
-    def law(self) -> Float[np.ndarray, " points"]:
-        """The curve."""
-        ...
-
-    @property
-    def sigma(self) -> Float[np.ndarray, " points"]:
-        """The standard deviation."""
-        ...
+    x: Float[np.ndarray, " points"]
+    law: Float[np.ndarray, " points"]
+    sigma: Float[np.ndarray, " points"]
+    sign: Float[np.ndarray, " points"] | float = 0.0
+    limits: tuple[float, float] = (-np.inf, np.inf)
+    rising: int = 0
+    held: tuple[float, ...] = ()
 
     @property
     def bounds(self) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
-        """Two standard deviations to either side, as far as it can be there."""
-        ...
+        """Two standard deviations to either side, as far as the law's promises allow."""
+        low, high = self.law - 2 * self.sigma, self.law + 2 * self.sigma
+        low = np.where(self.sign > 0, np.maximum(low, 0.0), low)
+        high = np.where(self.sign < 0, np.minimum(high, 0.0), high)
+        if self.rising:  # what it reached before, it keeps
+            along = slice(None, None, self.rising)
+            low = np.maximum.accumulate(low[along])[along]
+            high = np.minimum.accumulate(high[along][::-1])[::-1][along]
+        return np.maximum(low, self.limits[0]), np.minimum(high, self.limits[1])
+
+    @property
+    def steep(self) -> Bool[np.ndarray, " points"]:
+        """Where a law is steep: there points lie closer."""
+        apart = np.gradient(self.x)
+        return apart < 0.5 * apart.max()
+
+    def times(self, factor: float) -> Band:
+        """The band of a multiple."""
+        side = int(np.sign(factor))
+        low, high = sorted(factor * limit if factor else 0.0 for limit in self.limits)
+        law, sigma = factor * self.law, abs(factor) * self.sigma
+        return Band(
+            self.x, law, sigma, side * self.sign, (low, high), side * self.rising, self.held
+        )
 
 
 def plot_learned(
@@ -165,7 +191,7 @@ def plot_learned(
     ax.legend(frameon=False)
 
 
-def plot_band(ax: Axes, law: UncertainCurve, *, color: str = LEARNED[0], label: str = "") -> None:
+def plot_band(ax: Axes, law: Band, *, color: str = LEARNED[0], label: str = "") -> None:
     """Draw a law with a band of two standard deviations to either side."""
     low, high = law.bounds
     ax.fill_between(law.x, low, high, color=color, alpha=0.2, lw=0)

@@ -6,6 +6,7 @@ minimise, `optimizers` how, `uncertainty` computes how certain the result is, an
 `objective` lays records out.
 """
 
+from acausal.reporting import Band as Band
 from acausal.training.cross_validation import (
     CrossValidation as CrossValidation,
     Fold as Fold,
@@ -39,4 +40,4 @@ from acausal.training.record_fit import RecordFit as RecordFit
 from acausal.training.result import Fit as Fit
 from acausal.training.starts import Minimum as Minimum, Starts as Starts
 from acausal.training.trained_model import Seen as Seen
-from acausal.training.uncertainty.confidence import Band as Band, Confidence as Confidence
+from acausal.training.uncertainty.confidence import Confidence as Confidence

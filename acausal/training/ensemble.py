@@ -17,7 +17,7 @@ from acausal.errors import DataError, TrainingError, need_compiled, need_text, n
 from acausal.files import need_path
 from acausal.networks import law_at
 from acausal.pages import write_page
-from acausal.reporting import PageContent, table
+from acausal.reporting import Band, PageContent, table
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.preparation import prepare
@@ -27,7 +27,7 @@ from acausal.training.result import Fit
 from acausal.training.streaming import need_one_training
 from acausal.training.train_from_starts import run
 from acausal.training.uncertainty.bumps import SIGMAS
-from acausal.training.uncertainty.confidence import BAND_POINTS, Band
+from acausal.training.uncertainty.confidence import BAND_POINTS
 
 if TYPE_CHECKING:
     from acausal.system import System

@@ -17,6 +17,7 @@ from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, known_name, listing, percent, shown, warn
 from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.modeling import by_name
+from acausal.reporting import Band
 from acausal.simulation import Adaptive
 from acausal.training.auto.sensitive import OFF, SENSITIVE, sensitivity_of_each
 from acausal.training.conformal import Conformal
@@ -31,7 +32,7 @@ from acausal.training.prediction import Prediction, Predictions
 from acausal.training.record_fit import RecordFit, of_records
 from acausal.training.trained_model import TrainedModel, out_of_range
 from acausal.training.uncertainty.bumps import Bumped, bumped_law, with_changes
-from acausal.training.uncertainty.confidence import Band, Confidence
+from acausal.training.uncertainty.confidence import Confidence
 
 IN_NOISE, TINY, MUCH, FINEST = 0.3, 1e-4, 5.0, 64
 """What half as long steps may change, relative to the noise or at least the signal; a change to warn of where the steps

@@ -13,6 +13,7 @@ from acausal.errors import known_name, need_text
 from acausal.files import csv_text, need_path, write_files
 from acausal.pages import schematic, write_page
 from acausal.reporting import (
+    Band,
     PageContent,
     PlainTable,
     Tab,
@@ -23,7 +24,6 @@ from acausal.reporting import (
 )
 from acausal.training.presentation.page_of_several import prediction_blocks
 from acausal.training.record_fit import RecordFit
-from acausal.training.uncertainty.confidence import Band
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -25,6 +25,7 @@ from acausal.networks import (
     linear_shape,
     with_scales,
 )
+from acausal.reporting import Band
 from acausal.training.auto.likely_causes import likely_causes
 from acausal.training.auto.sensitive import is_sensitive
 from acausal.training.auto.step_choice import StepChoice, finer_steps
@@ -33,7 +34,6 @@ from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
 from acausal.training.trained_model import out_of_range
-from acausal.training.uncertainty.confidence import Band
 from benchmarks.by_default import NOISE, PROBLEMS, Known, by_default, fresh_error, law_error, record
 from tests.support.slow import some_slow
 from tests.training.test_checkpoint import stop

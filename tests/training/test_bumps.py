@@ -12,8 +12,8 @@ import pytest
 
 import acausal as ac
 from acausal.networks import Between, EnergyLaw, Even, Positive, Scaled, bounds_of, kept_promises
+from acausal.reporting import Band
 from acausal.training.uncertainty.bumps import Bumped, bumped_law
-from acausal.training.uncertainty.confidence import Band
 from acausal.training.uncertainty.laplace import _band
 
 INF = float("inf")

@@ -18,9 +18,8 @@ from acausal.pages import (
     schematic,
     summary,
 )
-from acausal.reporting import Block, Curve, PageContent, Plot, Tab, Text, titled_sections
+from acausal.reporting import Band, Block, Curve, PageContent, Plot, Tab, Text, titled_sections
 from acausal.training.trained_model import TrainedModel
-from acausal.training.uncertainty.confidence import Band
 
 SURE = (
     "The band is two standard deviations wide to either side. Dashed lines mark one standard deviation of what the "

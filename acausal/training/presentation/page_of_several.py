@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from acausal.pages import Known, labelled
 from acausal.reporting import (
+    Band,
     Block,
     Curve,
     PageContent,
@@ -19,7 +20,6 @@ from acausal.training.presentation.page_laws import Sections, content_with_laws
 from acausal.training.presentation.page_records import RECORDS_SHOWN
 from acausal.training.record_fit import RecordFit
 from acausal.training.trained_model import TrainedModel
-from acausal.training.uncertainty.confidence import Band
 
 POINTS = 4000
 """Points in a plot."""

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import starmap
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 
 from acausal.errors import listing, percent
-from acausal.reporting import Curve, Html, View, small_plot
+from acausal.reporting import Band, Curve, Html, View, small_plot
 from acausal.training.objective.prior import Prior
 
 BAND_POINTS = 201
@@ -30,55 +30,6 @@ SIZE = (420, 150)
 
 MOVED = 1.0
 """So many standard deviations are too much to move by the error of the integration's steps."""
-
-
-@dataclass(frozen=True, eq=False)
-class Band:
-    """A learned law over its first argument, or a prediction over time, with its standard deviation.
-
-    Attributes:
-        x: the argument or the time.
-        law, sigma: mean and standard deviation there.
-        sign: of the law where its promises settle it, 1 or −1; else 0. `bounds` are within it.
-        limits: the least and the largest value that the law can have, likewise.
-        rising: 1 for a law that never falls, −1 for one that never rises, else 0; neither do its `bounds` then.
-        held: other arguments of a law, at values that were seen together, near their mean.
-    """
-
-    x: Float[np.ndarray, " points"]
-    law: Float[np.ndarray, " points"]
-    sigma: Float[np.ndarray, " points"]
-    sign: Float[np.ndarray, " points"] | float = 0.0
-    limits: tuple[float, float] = (-np.inf, np.inf)
-    rising: int = 0
-    held: tuple[float, ...] = ()
-
-    @property
-    def bounds(self) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
-        """Two standard deviations to either side, as far as the law's promises allow."""
-        low, high = self.law - 2 * self.sigma, self.law + 2 * self.sigma
-        low = np.where(self.sign > 0, np.maximum(low, 0.0), low)
-        high = np.where(self.sign < 0, np.minimum(high, 0.0), high)
-        if self.rising:  # what it reached before, it keeps
-            along = slice(None, None, self.rising)
-            low = np.maximum.accumulate(low[along])[along]
-            high = np.minimum.accumulate(high[along][::-1])[::-1][along]
-        return np.maximum(low, self.limits[0]), np.minimum(high, self.limits[1])
-
-    @property
-    def steep(self) -> Bool[np.ndarray, " points"]:
-        """Where a law is steep: there points lie closer."""
-        apart = np.gradient(self.x)
-        return apart < 0.5 * apart.max()
-
-    def times(self, factor: float) -> Band:
-        """The band of a multiple."""
-        side = int(np.sign(factor))
-        low, high = sorted(factor * limit if factor else 0.0 for limit in self.limits)
-        law, sigma = factor * self.law, abs(factor) * self.sigma
-        return Band(
-            self.x, law, sigma, side * self.sign, (low, high), side * self.rising, self.held
-        )
 
 
 @dataclass(frozen=True, eq=False)

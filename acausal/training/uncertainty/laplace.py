@@ -24,6 +24,7 @@ from jaxtyping import Array, Bool, Float, Int
 from acausal._jax import compiled, value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import bounds_of, kept_promises, law_at
+from acausal.reporting import Band
 from acausal.simulation import Adaptive
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.prior import LawPrior, Prior
@@ -32,7 +33,7 @@ from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.bumps import bumps_at, split
 from acausal.training.uncertainty.changes import Changes, changes
-from acausal.training.uncertainty.confidence import BAND_POINTS, INDISTINGUISHABLE, Band, Confidence
+from acausal.training.uncertainty.confidence import BAND_POINTS, INDISTINGUISHABLE, Confidence
 from acausal.training.uncertainty.record_elimination import (
     RecordJacobian,
     move,
