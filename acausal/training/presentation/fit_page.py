@@ -20,7 +20,7 @@ from acausal.reporting import (
 )
 from acausal.training.auto.verdict import Verdict
 from acausal.training.history import History
-from acausal.training.presentation.fit_view import loss_rows, parameter_rows
+from acausal.training.presentation.fit_view import loss_curves, loss_rows, parameter_rows
 from acausal.training.presentation.page_laws import Sections, content_with_laws
 from acausal.training.presentation.page_records import record_blocks, runs_of
 from acausal.training.profile import Profile
@@ -40,7 +40,13 @@ DIVERGENCES_SHOWN = 50
 def fit_content(
     fit: TrainedModel, verdict: Verdict | None, title: str, profiles: Sequence[Profile] = ()
 ) -> PageContent:
-    """All that the page of a training shows; profiles show whether parameters are identifiable."""
+    """All that the page of a training shows; profiles show whether parameters are identifiable.
+
+    Raises:
+        DataError: for what is not a list of profiles.
+    """
+    if not (isinstance(profiles, list | tuple) and all(isinstance(p, Profile) for p in profiles)):
+        raise DataError(f"profiles={shown(profiles)}; give a list of those of fit.profile(...).")
     sure = fit.confidence() if np.isfinite(fit.loss) else None
     rows = parameter_rows(fit, sure)
     known = Known(
@@ -65,7 +71,7 @@ def fit_content(
         },
         "Trust": {
             "How sure it is": [Text(s) for s in ([NOT_SURE] if sure is None else sure.summary())],
-            "Profiles": [block for p in _profiles(profiles) for block in _profile(p)],
+            "Profiles": [block for p in profiles for block in _profile(p)],
             "Residuals": [] if sure is None else [b for r in fit.residuals() for b in _residuals(r)],
             "What diverged": list(_diverged(fit.history)),
         },
@@ -90,22 +96,11 @@ def _stages(fit: TrainedModel) -> list[Block]:
 def _losses(fit: TrainedModel) -> Iterable[Block]:
     """The losses and the changes of parameters over the updates, and what several starts reached."""
     history = fit.history
-    curves = [
-        *thinned(
-            [Curve("batches", np.arange(history.epochs, dtype=float), history.loss, "measured")],
-            LOSSES,
-        )
-    ]
-    epochs, losses = history.full_loss.T.astype(float)
-    curves.append(Curve("whole record", epochs, losses, "after", dots=True))
-    if len(history.validation_loss):
-        epochs, losses = history.validation_loss.T.astype(float)
-        curves.append(Curve("held out", epochs, losses, "before", dots=True))
-    curves = [c for c in curves if len(c.x)]
+    curves = tuple(c for curve in loss_curves(history) for c in thinned([curve], LOSSES))
     lowest = min((float(np.min(c.y, initial=np.inf)) for c in curves), default=0.0)
     yield Plot(
         "The loss, update by update: of the batches and over the whole record.",
-        "epoch", "loss", tuple(curves), log=lowest > 0,
+        "epoch", "loss", curves, log=lowest > 0,
     )  # fmt: skip
     if history.modifiers and history.epochs > 1:
         epochs = np.arange(history.epochs, dtype=float)
@@ -130,17 +125,6 @@ def _own(fit: TrainedModel, sure: Confidence | None) -> Table | None:
 
 
 # -- trust ---------------------------------------------------------------------------------------------------
-
-
-def _profiles(given: object) -> Sequence[Profile]:
-    """Profiles as they are.
-
-    Raises:
-        DataError: for anything else.
-    """
-    if isinstance(given, list | tuple) and all(isinstance(p, Profile) for p in given):
-        return given
-    raise DataError(f"profiles={shown(given)}; give a list of those of fit.profile(...).")
 
 
 def _profile(profile: Profile) -> Iterable[Block]:

@@ -27,6 +27,17 @@ def loss_rows(fit: TrainedModel) -> list[tuple[str, float, float]]:
     return rows
 
 
+def loss_curves(history: History) -> list[Curve]:
+    """The losses over the updates: of the batches, over the whole record, and over what is held out."""
+    epochs = np.arange(history.epochs, dtype=float)
+    curves = [
+        Curve("batches", epochs, history.loss, "measured"),
+        Curve("whole record", *history.full_loss.T.astype(float), role="after", dots=True),
+        Curve("held out", *history.validation_loss.T.astype(float), role="before", dots=True),
+    ]
+    return [curve for curve in curves if len(curve.x)]
+
+
 def parameter_rows(
     fit: TrainedModel, sure: Confidence | None = None
 ) -> list[tuple[str, str, str, str]]:
@@ -57,7 +68,8 @@ def fit_view(fit: TrainedModel) -> str:
     record = next(iter(fit.records.values()))
     for i, (target, unit) in enumerate(list(units.items())[:MOST_TARGETS]):
         view.folded(f"{target}, measured and simulated", _followed(record, i, unit), opened=i == 0)
-    view.folded("Losses, update by update", _losses(fit.history))
+    losses = small_plot(loss_curves(fit.history), across="update", upwards="loss", logarithmic=True)
+    view.folded("Losses, update by update", losses)
     if fit.history.divergences:
         view.text(f"{len(fit.history.divergences)} divergences; see fit.history.divergences")
     return str(view)
@@ -104,14 +116,3 @@ def _followed(record: RecordFit, target: int, unit: str) -> str:
         Curve("simulated", record.time, record.predicted[:, target]),
     ]
     return small_plot(curves, across="time in s", upwards=unit or "1")
-
-
-def _losses(history: History) -> str:
-    curves = [Curve("of the batch", np.arange(history.epochs), history.loss)]
-    for label, rows in (
-        ("whole record", history.full_loss),
-        ("held out", history.validation_loss),
-    ):
-        if len(rows):
-            curves.append(Curve(label, rows[:, 0], rows[:, 1]))
-    return small_plot(curves, across="update", upwards="loss", logarithmic=True)
