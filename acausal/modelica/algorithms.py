@@ -14,6 +14,7 @@ from acausal.modelica.classes import ClassNode
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import (
+    Branch,
     Branches,
     Connect,
     Do,
@@ -163,9 +164,7 @@ class Algorithms(Evaluator):
             )
         return changed
 
-    def _branch(
-        self, branches: list[tuple[Expression | None, list[Statement]]], local: dict[str, Any]
-    ) -> None:
+    def _branch(self, branches: list[Branch], local: dict[str, Any]) -> None:
         if not branches:
             return
         (test, body), *rest = branches

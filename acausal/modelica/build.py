@@ -459,7 +459,11 @@ class Build:
         if node is None:
             if not is_component(found.native):
                 raise entry.node.wrong(entry.declared.type.at, "this is not a class of components")
-            node = self._instead(entry, found, inner)
+            # the text of a library's class, where it is given a member which the class here lacks
+            tree, native = entry.node.tree, Native(found.native, found.full)
+            is_replaced = any(g.redeclared is not None for g in inner)
+            names = [g.name for g in inner]
+            node = tree.text(found.full) if is_replaced else tree.text_with(native, names)
         if node is None:
             part = make_part(found.native, inner)
             self.later.append(lambda: modify_part(self, part, inner))
@@ -469,13 +473,6 @@ class Build:
         part = class_of(node)(_given=inner, _above=self, _variability=variability, _name=name)
         self.parts_of_text.append(part)
         return part
-
-    def _instead(self, entry: Entry, found: Type, inner: list[Given]) -> ClassNode | None:
-        """The text of a library's class, where it is given a member which the class here lacks."""
-        tree = entry.node.tree
-        if any(g.redeclared is not None for g in inner):
-            return tree.text(found.full)
-        return tree.text_with(Native(found.native, found.full), [g.name for g in inner])
 
     # -- the record of the component -----------------------------------------------------------------------
 

@@ -383,8 +383,10 @@ class ClassNode:
                 )
         check_base(self, clause, base)
         inherited = base.view() if not self.redeclares else base.view().within(self._scope)
-        for native, given in inherited.natives:
-            view.natives.append((native, [*self._for_native(arguments, inherited), *given]))
+        of_native = [
+            p for p in arguments if p[0].name not in inherited.entries and p[0].redeclared is None
+        ]
+        view.natives += [(native, [*of_native, *given]) for native, given in inherited.natives]
         if inherited.predefined is not None:
             view.predefined = inherited.predefined
             view.attributes = [*view.attributes, *arguments, *inherited.attributes]
@@ -419,14 +421,6 @@ class ClassNode:
             return self.tree.text_with(base, [a.name.partition(".")[0] for a, _ in arguments])
         text = self.tree.text(base.name)
         return self.tree.text_with(base, text.view().entries) if text else None
-
-    @staticmethod
-    def _for_native(
-        arguments: list[tuple[ModificationArgument, ClassNode]], inherited: ClassView
-    ) -> list[tuple[ModificationArgument, ClassNode]]:
-        return [
-            p for p in arguments if p[0].name not in inherited.entries and p[0].redeclared is None
-        ]
 
     def names(self) -> list[str]:
         """Names of its classes, also of those that it inherits from the text."""

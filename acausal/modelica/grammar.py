@@ -7,6 +7,7 @@ from dataclasses import replace
 from acausal.modelica.expressions import Expressions
 from acausal.modelica.placing import placement
 from acausal.modelica.syntax import (
+    Branch,
     Branches,
     ClassDefinition,
     Connect,
@@ -15,7 +16,6 @@ from acausal.modelica.syntax import (
     DottedName,
     Element,
     EquationStatement,
-    Expression,
     Extends,
     FunctionCall,
     Import,
@@ -422,7 +422,7 @@ class _Reader(Expressions):
         raise self.wrong(f"'{sign}' expected, {self.found} found")
 
     def _branches(self, word: str, is_equation: bool) -> Statement:
-        at, branches = self.at, list[tuple[Expression | None, list[Statement]]]()
+        at, branches = self.at, list[Branch]()
         self.position += 1
         while True:
             condition = self.expression()

@@ -13,12 +13,12 @@ from acausal.errors import DeclarationError, warn
 from acausal.modelica.connecting import Connecting, is_of_graph
 from acausal.modelica.meanings import Literal
 from acausal.modelica.syntax import (
+    Branch,
     Branches,
     Connect,
     Do,
     DottedName,
     EquationStatement,
-    Expression,
     FunctionCall,
     Loop,
     Several,
@@ -145,9 +145,7 @@ class SectionReader(Connecting):
 
     # -- if ------------------------------------------------------------------------------------------------
 
-    def _cases(
-        self, branches: Sequence[tuple[Expression | None, list[Statement]]]
-    ) -> Iterator[Any]:
+    def _cases(self, branches: Sequence[Branch]) -> Iterator[Any]:
         """The equations of ``if``; of conditions that are not known each equation chooses between branches."""
         if not branches:
             return
@@ -251,9 +249,7 @@ class SectionReader(Connecting):
                 case _:
                     raise self.wrong("this does not stand within 'when'")
 
-    def _if_at_event(
-        self, branches: Sequence[tuple[Expression | None, list[Statement]]]
-    ) -> Iterator[Any]:
+    def _if_at_event(self, branches: Sequence[Branch]) -> Iterator[Any]:
         """``if`` within ``when``: a variable that a branch does not mention keeps its value."""
         if not branches:
             return

@@ -273,10 +273,10 @@ class EquationStatement:
 
 @dataclass(slots=True, eq=False)
 class Branches:
-    """``if`` or ``when``: conditions with statements; the last condition is None for ``else``."""
+    """``if`` or ``when``."""
 
     word: str
-    branches: list[tuple[Expression | None, list[Statement]]]
+    branches: list[Branch]
     at: int
 
 
@@ -307,3 +307,6 @@ class Do:
 
 
 Statement: TypeAlias = EquationStatement | Branches | Loop | Connect | Do
+
+Branch: TypeAlias = tuple[Expression | None, list[Statement]]
+"""A condition, and what applies where it is the first that holds; None for ``else``."""
