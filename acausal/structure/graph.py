@@ -136,6 +136,15 @@ def pantelides(structure: DifferentialStructure, max_order: int = 12) -> list[in
     return matching.equation_of
 
 
+def equations_of(incidence: Incidence, n_variables: int) -> list[list[int]]:
+    """The equations that have each variable."""
+    found: list[list[int]] = [[] for _ in range(n_variables)]
+    for equation, row in enumerate(incidence):
+        for variable in row:
+            found[variable].append(equation)
+    return found
+
+
 def choose_variables(
     incidence: Incidence, candidates: Sequence[int], n_variables: int
 ) -> list[int]:
@@ -144,10 +153,7 @@ def choose_variables(
     The sets of variables that can be matched are independent (a transversal matroid), so taking them
     greedily in order of preference is optimal.
     """
-    columns: list[list[int]] = [[] for _ in range(n_variables)]
-    for equation, row in enumerate(incidence):
-        for variable in row:
-            columns[variable].append(equation)
+    columns = equations_of(incidence, n_variables)
     matching = Matching(len(incidence))
     chosen: list[int] = []
     for variable in candidates:
@@ -242,14 +248,9 @@ def singularity(
     missing = [v for v in unknowns if equation_of[v] < 0]
     if not surplus and not missing:
         return None
-    equations_of: list[list[int]] = [[] for _ in range(n_variables)]
-    for e, row in enumerate(incidence):
-        for v in row:
-            equations_of[v].append(e)
+    equations = equations_of(incidence, n_variables)
     over = _reach(surplus, lambda e: [equation_of[v] for v in incidence[e] if equation_of[v] >= 0])
-    under = _reach(
-        missing, lambda v: [variable_of[e] for e in equations_of[v] if variable_of[e] >= 0]
-    )
+    under = _reach(missing, lambda v: [variable_of[e] for e in equations[v] if variable_of[e] >= 0])
     return Singularity(tuple(over), tuple(surplus), tuple(under), tuple(missing))
 
 

@@ -9,7 +9,6 @@ equations, so that index reduction sees it. (For factors that are integers: Otte
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from functools import cache, reduce
 from operator import add, mul
 from random import Random
@@ -37,7 +36,12 @@ def expose_constraints(system: Equations) -> dict[int, list[int]]:
     """
     highest = _highest(system)
     residue = cache(lambda parameter: RESIDUES(Random(parameter).randrange(1, PRIME)))
-    suspects = {e: _residues(system, e, highest[e], residue) for e in prune_singletons(highest)}
+    suspects: dict[int, dict[int, Any]] = {}
+    for e in prune_singletons(highest):
+        template = system.template[e]
+        values = dict(zip(template.parameters, map(residue, system.parameters[e]), strict=True))
+        columns = highest[e].items()
+        suspects[e] = {v: _modular(_factor(template, c), values) for v, c in columns}
     found: dict[int, list[int]] = {}
     for combination in cancelling(suspects):
         numbers = {p: i for i, p in enumerate(_parameters(system, combination))}
@@ -54,13 +58,10 @@ def _highest(system: Equations) -> dict[int, ColumnByUnknown]:
     found: dict[int, ColumnByUnknown] = {}
     for e, (template, row) in enumerate(zip(system.template, system.variables, strict=True)):
         columns = {v: c for c, v in enumerate(row) if derivative[v] < 0 and v not in known}
-        if columns and (template.coefficients() or _are_constant(template, columns.values())):
+        constant = (_factor(template, c) is not None for c in columns.values())
+        if columns and (template.coefficients() or all(constant)):
             found[e] = columns
     return found
-
-
-def _are_constant(template: Statement, columns: Iterable[int]) -> bool:
-    return all(_factor(template, c) is not None for c in columns)
 
 
 @cache
@@ -72,16 +73,6 @@ def _factor(template: Statement, column: int) -> Any:
     if not template.is_solvable(column):
         return None
     return factor.xreplace({f: sp.Rational(f) for f in factor.atoms(sp.Float)})
-
-
-def _residues(
-    system: Equations, equation: int, columns: ColumnByUnknown, residue: Callable[[int], Any]
-) -> dict[int, Any]:
-    """The factors of unknowns modulo the prime."""
-    template = system.template[equation]
-    chosen = map(residue, system.parameters[equation])
-    values = dict(zip(template.parameters, chosen, strict=True))
-    return {v: _modular(_factor(template, c), values) for v, c in columns.items()}
 
 
 def _modular(expression: Any, values: dict[Any, Any]) -> Any:

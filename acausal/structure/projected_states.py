@@ -79,7 +79,8 @@ def find_mechanisms(
     if all(None not in row.values() for row in rows.values()):
         return []
     pivots = _eliminate(rows, preferences)
-    jumping = _jumping(system)
+    jumps = system.model.events.jumps
+    jumping = {int(system.aliases.representative[v]) for g in jumps for v in g.targets.tolist()}
     rank = {v: i for i, v in enumerate(preferences)}
     found: list[Mechanism] = []
     for part in _connected(rows, len(system.structure.derivative)):
@@ -172,12 +173,6 @@ def _closure(system: Equations, constraints: Sequence[int], pivots: Mapping[int,
                 found[v] = None
                 waiting.append(pivots[v])
     return list(found)
-
-
-def _jumping(system: Equations) -> set[int]:
-    """The nodes that jump at events."""
-    groups = system.model.events.jumps
-    return {int(system.aliases.representative[v]) for g in groups for v in g.targets.tolist()}
 
 
 # -- the equations of a projection ----------------------------------------------------------------

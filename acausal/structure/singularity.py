@@ -46,7 +46,9 @@ def explain_singularity(system: Equations, combined: Mapping[int, Sequence[int]]
     surplus = surplus or [origins[e] for e in unmatched_equations]
     reached += [other for e in unmatched_equations for other in combined.get(e, ())]
     related = [origins[e] for e in reached if origins[e] not in surplus]
-    floating = any(_is_potential(model, node) for node in unmatched)
+    variables = (v for v in unmatched if v < model.n_variables)
+    kinds = map(model.layout.variable_declaration, variables)
+    floating = any(isinstance(declared, Potential) for declared in kinds)
     excess = bool(surplus or aliases.redundant)
     if missing:
         parts.append(f"undetermined: {listing(missing)}")
@@ -79,12 +81,6 @@ def _seen_in(places: Sequence[str]) -> str:
         for file, own in lines.items()
     ]
     return f" See {'; '.join(found)}." if found else ""
-
-
-def _is_potential(model: FlatModel, node: int) -> bool:
-    if node >= model.n_variables:
-        return False
-    return isinstance(model.layout.variable_declaration(node), Potential)
 
 
 def _remedy(missing: bool, surplus: bool, floating: bool) -> str:

@@ -80,10 +80,6 @@ def _accumulation(step: Accumulation) -> Computation:
     return _table(step.unknowns[:, None], step.terms)
 
 
-def _torn_loop(loop: TornLoop) -> Computation:
-    return _table(loop.unknowns, loop.externals)
-
-
 def _sparse_loop(loop: SparseLoop) -> Computation:
     """Loops of one level are solved together, but each depends on its own equations only."""
     rows, nodes = _reads(loop)
@@ -127,7 +123,7 @@ def _reads(loop: SparseLoop) -> tuple[Integers, Integers]:
 _COMPUTATION: dict[type, Callable[[Any], Computation]] = {
     Assignment: _assignment,
     Accumulation: _accumulation,
-    TornLoop: _torn_loop,
+    TornLoop: lambda loop: _table(loop.unknowns, loop.externals),
     SparseLoop: _sparse_loop,
 }
 """By kind of step, what it computes from what."""

@@ -14,6 +14,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 
+from acausal.structure.graph import equations_of
+
 WORK = 250_000
 """The most entries of the incidence that each half of a search looks at; a tenth of a second or so."""
 
@@ -60,7 +62,8 @@ def tear(
     preferences = [preference(v) for v in range(n_variables)]
     found = _greedy(block, preferences)
     found = _pruned(block, preferences, found)
-    found = _exchanged(block, preferences, found)
+    while (better := _one_for_two(block, preferences, found)) is not None:
+        found = better
     return block.torn(found)
 
 
@@ -76,10 +79,7 @@ class _Block:
         self.n = n_variables
         self.rows = [list(dict.fromkeys(row)) for row in incidence]
         self.solvable = [{v for v in row if solvable(e, v)} for e, row in enumerate(self.rows)]
-        self.columns: list[list[int]] = [[] for _ in range(n_variables)]
-        for e, row in enumerate(self.rows):
-            for v in row:
-                self.columns[v].append(e)
+        self.columns = equations_of(self.rows, n_variables)
         self.work = 0
         self.reset()
 
@@ -191,13 +191,6 @@ def _pruned(block: _Block, preferences: Sequence[Preference], tears: list[int]) 
         rest = [t for t in tears if t != v]
         if not preferences[v].required and block.learn_all(rest):
             tears = rest
-    return tears
-
-
-def _exchanged(block: _Block, preferences: Sequence[Preference], tears: list[int]) -> list[int]:
-    """The tears with two of them replaced by one of the same rank as long as one can be found."""
-    while (better := _one_for_two(block, preferences, tears)) is not None:
-        tears = better
     return tears
 
 

@@ -31,20 +31,13 @@ def tearing_pays(
     if len(torn.tears) > min(FEW, COST // len(unknowns)):
         return False
     point = Point(random_values(len(system.structure.derivative)), parameters)
-    return _error(torn, _jacobian(system, equations, unknowns, point)) < LOST
-
-
-def _jacobian(
-    system: Equations, equations: list[int], unknowns: list[int], point: Point
-) -> np.ndarray:
-    """The Jacobian (n, n) of a loop at a point."""
     place = np.full(len(system.structure.derivative), -1)
     place[unknowns] = np.arange(len(unknowns))
     rows, nodes, values = system.jacobian(equations, point)
     inside = place[nodes] >= 0
-    matrix = np.zeros((len(unknowns),) * 2)
-    np.add.at(matrix, (rows[inside], place[nodes[inside]]), values[inside])
-    return matrix
+    jacobian = np.zeros((len(unknowns),) * 2)
+    np.add.at(jacobian, (rows[inside], place[nodes[inside]]), values[inside])
+    return _error(torn, jacobian) < LOST
 
 
 def _error(torn: Torn, jacobian: np.ndarray) -> float:
