@@ -744,7 +744,7 @@ What a network gives has any unit: an energy that is computed from it tells noth
 """
 
 
-@pytest.mark.cases(fast=1, slow=99)
+@pytest.mark.cases(fast=0, slow=99)
 @pytest.mark.parametrize("package", components.PACKAGES)
 def test_the_library_has_right_units(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """And none that pint must be asked for, as its import takes longer than the check."""
