@@ -48,7 +48,8 @@ def maps() -> int:
 
 
 ONE_OF = 8
-"""Of the slow tests every so many-th is in a sample: others after each change, so that all have their turn."""
+"""Of the slow tests every so many-th is in a sample. Which ones depends on CHANGELOG.md: others have their turn after a
+change."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

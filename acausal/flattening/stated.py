@@ -374,7 +374,8 @@ class _Sorting:
 
     def _tick(self, tick: Tick) -> Any:
         if tick not in self.known:
-            r, count = self._new("bool"), self._new("int", unit="1")
+            unit = "" if tick.period.is_number else "1"  # a number is one of seconds
+            r, count = self._new("bool"), self._new("int", unit=unit)
             now = self.known[tick] = self._new("bool")
             due = time - (tick.start + Previous(count) * tick.period)
             self.guards.append(GuardStatement(r, due, str(tick), strict=False, ticks=True))

@@ -149,18 +149,16 @@ def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
     found: dict[tuple[str, str], list[str]] = {}
     asserted = (one.group for one in flat.assertions)
     for stated in (*flat.equations(initial=True), *asserted):
-        if stated.components[0] < 0:  # a connection
+        if stated.components[0] < 0 or _counts_ticks(stated):  # a connection
             continue
         group = _with_numbers(flat, stated, least=True)
         if examine(group.template.residual, _slots(group, measures)) is None:
             continue
         group = _with_numbers(flat, stated, least=False)
         slots = _slots(group, measures)
-        finding, origin = examine(group.template.residual, slots), group.origins[0]
-        is_clock = origin.text.startswith("sample(")
-        if is_clock and any(cls == origin.cls and origin.text in wrong for cls, wrong in found):
-            continue  # its ticks are counted by the times that are wrong
+        finding = examine(group.template.residual, slots)
         if finding is not None:
+            origin = group.origins[0]
             hint = _hint(group.template, slots, finding)
             reason = TICKS.sub("k", finding.reason)
             wrong = f"'{shortened(origin.text)}': {reason}{hint}"
@@ -170,6 +168,12 @@ def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
         first = f"{cls} '{names[0]}'" if names[0] else cls
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""
         yield f"{first}{more}: {wrong}"
+
+
+def _counts_ticks(group: EquationGroup) -> bool:
+    """Whether this counts the ticks of a clock, whose condition has its times."""
+    first = str(group.template.variables[0]) if group.template.variables else ""
+    return first.startswith(f"new {HIDDEN}") and group.origins[0].text.startswith("sample(")
 
 
 def _with_numbers(flat: FlatModel, group: EquationGroup, least: bool) -> EquationGroup:

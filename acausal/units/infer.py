@@ -191,8 +191,10 @@ def _sum(walk: _Walk, expression: Any) -> Dimension | None:
     Where a term is neither, such as a product, the scales are not compared. A bracket's factor may have a dimension,
     and sympy multiplies it out: terms of one dimension with equal factors, ``3*x - 3*y``, are compared as in it.
     """
-    for bracket in _multiplied_out(walk, expression):
-        _sum(walk, bracket)
+    for bracket, is_whole in _multiplied_out(walk, expression):
+        if is_whole:
+            _sum(walk, bracket)
+        walk.common(bracket.args, are_summed=True)
     found = walk.common(expression.args, are_summed=True)
     found = None if found is None else replace(found, zero=None)
     terms: dict[float, list[tuple[Any, Any, Dimension]]] = {}
@@ -208,15 +210,24 @@ def _sum(walk: _Walk, expression: Any) -> Dimension | None:
     return found
 
 
-def _multiplied_out(walk: _Walk, expression: Any) -> Iterator[Any]:
-    """The brackets, each with terms of one dimension, whose factors sympy has multiplied out."""
-    brackets = defaultdict[Any, list[Any]](list)
+def _multiplied_out(walk: _Walk, expression: Any) -> Iterator[tuple[Any, bool]]:
+    """The brackets, each with terms of one dimension, whose factors sympy has multiplied out.
+
+    And whether one is whole: no further term may have been in it.
+    """
+    brackets = defaultdict[float, defaultdict[Any, list[Any]]](lambda: defaultdict(list))
+    dimensions = list[Any]()
     for part in expression.args:
         factor, term = part.as_coeff_Mul()
-        here = None if abs(factor) == 1 else walk.of(term)
-        if here is not None:
-            brackets[abs(factor), here.exponents].append(sp.sign(factor) * term)
-    return (sp.Add(*terms) for terms in brackets.values() if len(terms) > 1)
+        here = walk.of(term)
+        exponents = None if here is None else here.exponents
+        brackets[float(abs(factor))][exponents].append(sp.sign(factor) * term)
+        dimensions.append(exponents)
+    for factor, terms in brackets.items():
+        for exponents, alike in terms.items():
+            if factor != 1 and exponents is not None and len(alike) > 1:
+                is_whole = None not in dimensions and dimensions.count(exponents) == len(alike)
+                yield sp.Add(*alike), is_whole
 
 
 def _parts(walk: _Walk, expression: Any) -> None:

@@ -394,7 +394,20 @@ def test_the_period_of_a_clock_is_in_seconds(unit: str, told: str) -> None:
     assert message.count("sample(") == 1
 
 
+@pytest.mark.parametrize("period", [1, 1.0, 2, ac.pi, 0.001])
+def test_a_clock_may_have_a_number_as_its_period(period: Any) -> None:
+    class Clock(ac.Component):
+        n = ac.Discrete(0, kind="int")
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.When(ac.sample(0, period), ac.Eq(self.n, ac.pre(self.n) + 1))
+
+    check_dimensions(flatten(Clock()))
+
+
 RIGHT: dict[str, Callable[[Any], Any]] = {
+    "a factor of temperatures on one scale": lambda s: (s.f, 3 * (s.Tc + 273.15 - s.T)),
+    "a factor of temperatures beside an unknown": lambda s: (s.f, 2 * (s.Tc - s.T + s.x * s.s)),
     "a spring and a damper": lambda s: (s.f, s.c * (s.s - 0.1) + s.d * ac.der(s.s)),
     "energies": lambda s: (s.E, 0.5 * s.m * s.v**2 + s.c * s.s**2 / 2),
     "a balance": lambda s: (0, s.f - ac.der(s.m * s.v) + s.m * s.a),
